@@ -1,0 +1,2 @@
+//! octray
+fn main() {}

@@ -1,0 +1,2 @@
+//! scenes
+pub mod model;

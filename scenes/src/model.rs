@@ -1,0 +1,152 @@
+//! The parsed scene: what a scene file says, in `f64` and in scene units, nothing derived.
+//!
+//! Everything here has been checked by the parser: every number is finite, every shape has an
+//! extent, every surface index is in range. Code that builds a [`Scene`] by other means must keep
+//! the same promises, or call [`crate::check`] on what it built.
+
+/// A point or a direction in scene units.
+pub type Point = [f64; 3];
+
+/// Linear red, green and blue; 1 is full intensity, larger values are allowed.
+pub type Colour = [f64; 3];
+
+/// A whole scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Where the picture is seen from.
+    pub camera: Camera,
+    /// Columns of the picture as the file has it, 1 to 65535.
+    pub width: u32,
+    /// Rows of the picture as the file has it, 1 to 65535.
+    pub height: u32,
+    /// What a ray that hits nothing brings.
+    pub background: Colour,
+    /// Point lights, in file order.
+    pub lights: Vec<Light>,
+    /// Surface properties, in file order.
+    pub surfaces: Vec<Surface>,
+    /// Objects, in file order; their index is their identity everywhere in octray.
+    pub objects: Vec<Object>,
+    /// Vertices of all polygons and patches; shapes hold ranges of it.
+    pub vertices: Vec<Point>,
+    /// Vertex normals of all patches, as written in the file (any length but zero).
+    pub normals: Vec<Point>,
+}
+
+/// The camera of MODEL.md in either of its forms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Camera {
+    /// The picture plane is z = 0 and one pixel (of the file's own resolution) is one unit.
+    Thesis {
+        /// The eye; its z is never zero.
+        viewpoint: Point,
+        /// How rays leave.
+        projection: Projection,
+    },
+    /// The camera of NFF.
+    Nff {
+        /// The eye.
+        from: Point,
+        /// The point in the centre of the picture.
+        at: Point,
+        /// A direction that is up in the picture; never parallel to the view.
+        up: Point,
+        /// Degrees between the centres of the first and the last row, inside (0, 180).
+        angle: f64,
+        /// How rays leave.
+        projection: Projection,
+    },
+}
+
+/// How rays leave the camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// From the eye through the picture plane.
+    Perspective,
+    /// Side by side, along the view.
+    Parallel,
+}
+
+/// A point light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where it is.
+    pub position: Point,
+    /// Its brightness, channel by channel; never negative. An NFF light without a colour holds
+    /// 1/√(number of lights) in each channel.
+    pub colour: Colour,
+}
+
+/// The properties of a surface, in the thesis's terms whatever the dialect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Light the surface shows without any light source.
+    pub ambient: Colour,
+    /// Diffuse coefficients.
+    pub diffuse: Colour,
+    /// Specular coefficients.
+    pub specular: Colour,
+    /// Exponent of the specular term, any real ≥ 0.
+    pub shine: f64,
+    /// Share of the mirror ray's light, ≥ 0.
+    pub reflect: f64,
+    /// Share of the transmitted ray's light, ≥ 0; opaque if 0.
+    pub refract: f64,
+    /// Refraction index of the inside; > 0 where `refract` > 0, else 1.
+    pub ior: f64,
+}
+
+/// One object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Object {
+    /// Its geometry.
+    pub shape: Shape,
+    /// Index into [`Scene::surfaces`].
+    pub surface: u32,
+}
+
+/// The geometry of one object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A sphere.
+    Sphere {
+        /// Centre.
+        centre: Point,
+        /// Radius, > 0 (the parser drops the sign).
+        radius: f64,
+    },
+    /// The side surface of a truncated cone or a cylinder, without end caps.
+    Cone {
+        /// Centre of the base circle.
+        base: Point,
+        /// Radius of the base circle, ≥ 0.
+        base_radius: f64,
+        /// Centre of the top circle; differs from `base`.
+        top: Point,
+        /// Radius of the top circle, ≥ 0; not both radii are 0.
+        top_radius: f64,
+    },
+    /// An axis-aligned box.
+    Cuboid {
+        /// Centre.
+        centre: Point,
+        /// Full side lengths, > 0.
+        size: Point,
+    },
+    /// A planar polygon, convex, concave or self-intersecting (even–odd).
+    Polygon {
+        /// Its first vertex in [`Scene::vertices`].
+        first: u32,
+        /// How many vertices, ≥ 3.
+        count: u32,
+    },
+    /// A planar polygon with a normal at each vertex.
+    Patch {
+        /// Its first vertex in [`Scene::vertices`].
+        first: u32,
+        /// How many vertices, ≥ 3.
+        count: u32,
+        /// The normal of its first vertex in [`Scene::normals`].
+        first_normal: u32,
+    },
+}
