@@ -1,2 +1,17 @@
-//! scenes
+//! Scene files of octray: all that reads, checks, writes and generates them.
+//!
+//! The modules, in the order of the data:
+//!
+//! | module | does |
+//! | --- | --- |
+//! | [`mod@parse`] | reads a scene file of either dialect: text to [`model::Scene`] |
+//! | [`diagnostic`] | says what is wrong with a file, where, and what was expected |
+//! | [`check`] | the promises a scene keeps, for the parser and for scenes made otherwise |
+//! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
+
+pub mod check;
+pub mod diagnostic;
 pub mod model;
+pub mod parse;
+
+pub use parse::{ReadError, parse, read};

@@ -2,7 +2,7 @@
 //!
 //! Everything here has been checked by the parser: every number is finite, every shape has an
 //! extent, every surface index is in range. Code that builds a [`Scene`] by other means must keep
-//! the same promises, or call [`crate::check`] on what it built.
+//! the same promises, or call [`crate::check::scene`] on what it built.
 
 /// A point or a direction in scene units.
 pub type Point = [f64; 3];
@@ -77,7 +77,7 @@ pub struct Light {
     pub colour: Colour,
 }
 
-/// The properties of a surface, in the thesis's terms whatever the dialect.
+/// The properties of a surface, in the thesis's terms whatever the dialect. The default is black.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Light the surface shows without any light source.
@@ -94,6 +94,20 @@ pub struct Surface {
     pub refract: f64,
     /// Refraction index of the inside; > 0 where `refract` > 0, else 1.
     pub ior: f64,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self {
+            ambient: [0.0; 3],
+            diffuse: [0.0; 3],
+            specular: [0.0; 3],
+            shine: 0.0,
+            reflect: 0.0,
+            refract: 0.0,
+            ior: 1.0,
+        }
+    }
 }
 
 /// One object.

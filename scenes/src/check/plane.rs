@@ -1,0 +1,123 @@
+//! Whether vertices lie in one plane.
+//!
+//! The plane goes through the first vertex *o*, the vertex *a* farthest from it and the vertex *b*
+//! farthest from the line *oa*. Every vertex is then *o* + α(*a* − *o*) + β(*b* − *o*) with
+//! |β| ≤ 1 and |α| ≤ 2, so however thin the polygon, vertices that are each off a common plane by
+//! δ are off this one by no more than δ(1 + |1 − α − β| + |α| + |β|) ≤ 8δ. The sum over the edges
+//! (Newell's normal) would not do: it is 0 for a symmetric bow tie, which is allowed.
+//!
+//! Files often hold six significant digits, which moves a coordinate by up to 5e-6 of its value
+//! and a vertex off the plane by up to √3 times that; 8δ is then 7e-5 of the largest coordinate.
+//! So the tolerance is **1e-4 of the largest absolute coordinate, but no less than 1e-4 and no more
+//! than 1e-2 of the polygon's size**, the size being the distance from *o* to *a*.
+
+use super::Fault;
+use crate::model::Point;
+
+/// A polygon is a line if its height over its longest side is no more than this of that side.
+const THINNEST: f64 = 1e-9;
+
+/// Checks three or more finite vertices: none repeated in a row, not all on a line, all in a plane.
+/// No coordinate is too large or too small for it.
+pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
+    let before = vertices.iter().cycle().skip(vertices.len() - 1);
+    if let Some(vertex) = vertices.iter().zip(before).position(|(a, b)| a == b) {
+        return Err(Fault::RepeatedVertex { vertex });
+    }
+
+    let largest = |points: &mut dyn Iterator<Item = Point>| {
+        points
+            .flatten()
+            .fold(0.0, |largest: f64, number| largest.max(number.abs()))
+    };
+    let unit = largest(
+        &mut vertices
+            .iter()
+            .map(|vertex| half_difference(vertex, &vertices[0])),
+    );
+    if unit == 0.0 {
+        return Err(Fault::Collinear);
+    }
+    // From here on in halves of `unit`, so that squares stay in range.
+    let offset = |vertex: &Point| half_difference(vertex, &vertices[0]).map(|d| d / unit);
+    let coordinate = largest(&mut vertices.iter().copied()) / 2.0 / unit;
+
+    let a = farthest(vertices.iter().map(offset));
+    let size = length(a);
+    let normal = farthest(vertices.iter().map(|vertex| cross(&a, &offset(vertex))));
+    let height = length(normal) / size;
+    if height <= THINNEST * size {
+        return Err(Fault::Collinear);
+    }
+
+    let normal = normal.map(|component| component / (height * size));
+    let distance = |vertex: &Point| dot(&normal, &offset(vertex)).abs();
+    let (vertex, distance) =
+        vertices
+            .iter()
+            .map(distance)
+            .enumerate()
+            .fold(
+                (0, 0.0),
+                |worst, this| if this.1 > worst.1 { this } else { worst },
+            );
+    let tolerance = (1e-4 * coordinate).clamp(1e-4 * size, 1e-2 * size);
+    if distance > tolerance {
+        let scale = 2.0 * unit;
+        let (distance, tolerance) = (distance * scale, tolerance * scale);
+        return Err(Fault::NotPlanar {
+            vertex,
+            distance,
+            tolerance,
+        });
+    }
+    Ok(())
+}
+
+/// Half of `a − b`, which cannot overflow.
+pub(super) fn half_difference(a: &Point, b: &Point) -> Point {
+    [
+        a[0] * 0.5 - b[0] * 0.5,
+        a[1] * 0.5 - b[1] * 0.5,
+        a[2] * 0.5 - b[2] * 0.5,
+    ]
+}
+
+/// The direction of `vector` with length 1; `None` if it is zero.
+pub(super) fn unit(vector: Point) -> Option<Point> {
+    let largest = vector
+        .iter()
+        .fold(0.0, |largest: f64, number| largest.max(number.abs()));
+    (largest > 0.0).then(|| {
+        let scaled = vector.map(|number| number / largest);
+        let length = length(scaled);
+        scaled.map(|number| number / length)
+    })
+}
+
+pub(super) fn cross(a: &Point, b: &Point) -> Point {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+pub(super) fn length(vector: Point) -> f64 {
+    dot(&vector, &vector).sqrt()
+}
+
+fn dot(a: &Point, b: &Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The longest of `vectors`, the first of several; zero if there is none.
+fn farthest(vectors: impl Iterator<Item = Point>) -> Point {
+    vectors.fold([0.0; 3], |longest, vector| {
+        if dot(&vector, &vector) > dot(&longest, &longest) {
+            vector
+        } else {
+            longest
+        }
+    })
+}

@@ -1,0 +1,135 @@
+//! Mistakes in a scene file: a kind and a place each, drawn only when somebody wants to read them.
+
+mod draw;
+mod words;
+
+use crate::check::Fault;
+use crate::parse::{Keyword, Span};
+
+/// As many mistakes are kept; beyond them only the fact that there are more.
+pub const MOST: usize = 20;
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// No token at all in the file.
+    Empty,
+    /// A control character: this is no text file. Nothing after it is read.
+    Binary,
+    /// A word where a keyword must be.
+    UnknownKeyword,
+    /// A number where a keyword must be.
+    StrayNumber,
+    /// A word where a number must be.
+    NotANumber,
+    /// `nan`, `inf`, or a number too large for `f64`.
+    NotFinite,
+    /// A keyword with a wrong count of numbers.
+    Count {
+        /// The keyword.
+        keyword: Keyword,
+        /// How many numbers follow it.
+        found: usize,
+    },
+    /// A polygon or patch with more or fewer numbers than its vertices need.
+    VertexCount {
+        /// [`Keyword::Polygon`] or [`Keyword::Patch`].
+        keyword: Keyword,
+        /// How many vertices it announces.
+        vertices: u32,
+        /// How many numbers follow the announcement.
+        found: usize,
+    },
+    /// A number of vertices that is not whole, negative, or beyond `u32`.
+    NotACount,
+    /// A word other than `parallel` and `perspective` after `view`, or none.
+    View,
+    /// An object before the first surface.
+    NoSurface,
+    /// What a scene has once, a second time.
+    Duplicate {
+        /// The keyword.
+        keyword: Keyword,
+        /// Where it stands the first time.
+        first: Span,
+    },
+    /// No viewpoint.
+    NoViewpoint,
+    /// A camera of which parts are missing.
+    Incomplete {
+        /// The keywords that are missing.
+        missing: Vec<Keyword>,
+    },
+    /// `from` beside a viewpoint in the thesis's form.
+    TwoEyes,
+    /// A value that no scene can have.
+    Fault(Fault),
+}
+
+/// One mistake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// What is wrong.
+    pub kind: Kind,
+    /// Where; a part of one line if possible.
+    pub span: Span,
+}
+
+/// The mistakes of one source, in its order. Never empty where it is an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostics {
+    /// Up to [`MOST`] of them.
+    pub list: Vec<Diagnostic>,
+    /// Whether there were more.
+    pub more: bool,
+}
+
+impl Diagnostics {
+    /// Draws every mistake: what it is, `path:line:column` (from 1, columns in characters), the
+    /// line with carets under the span, what was found and what was expected. Of a long line only
+    /// the neighbourhood of the span is shown; control characters are escaped. `source` must be
+    /// the text that was parsed; `path` is only shown.
+    pub fn draw(&self, path: &str, source: &str) -> String {
+        draw::draw(self, path, source)
+    }
+}
+
+/// Where the parser puts the mistakes it finds.
+#[derive(Debug, Default)]
+pub(crate) struct Sink {
+    list: Vec<Diagnostic>,
+    more: bool,
+    binary: bool,
+}
+
+impl Sink {
+    pub(crate) fn push(&mut self, kind: Kind, span: Span) {
+        self.binary |= kind == Kind::Binary;
+        if self.list.len() < MOST {
+            self.list.push(Diagnostic { kind, span });
+        } else {
+            self.more = true;
+        }
+    }
+
+    /// Whether there was no mistake so far.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Whether there are too many mistakes, or one that makes reading on pointless.
+    pub(crate) fn ends_reading(&self) -> bool {
+        self.more || self.binary
+    }
+
+    /// `value` if there was no mistake.
+    pub(crate) fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
+        let Self { mut list, more, .. } = self;
+        if list.is_empty() {
+            return Ok(value);
+        }
+        list.sort_by_key(|mistake| mistake.span.start);
+        Err(Diagnostics { list, more })
+    }
+}

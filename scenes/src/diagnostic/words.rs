@@ -1,0 +1,157 @@
+//! The words of an error message: a title, and a label for the place.
+
+use super::Kind;
+use crate::check::Fault;
+use crate::parse::Keyword;
+
+const KEYWORDS: &str =
+    "expected one of `v at up angle view resolution b l f s c box p pp`, in lower case";
+
+/// Title and label of `kind`; `found` is what stands at its place, fit for printing.
+pub(super) fn describe(kind: &Kind, found: &str) -> (String, String) {
+    let owned = |title: &str, label: &str| (title.to_owned(), label.to_owned());
+    match kind {
+        Kind::Empty => owned(
+            "the file holds no scene",
+            "expected at least a viewpoint: `v x y z`",
+        ),
+        Kind::Binary => (
+            "not a text file".to_owned(),
+            format!("found control characters in `{found}`, expected a scene file"),
+        ),
+        Kind::UnknownKeyword => (format!("unknown keyword `{found}`"), KEYWORDS.to_owned()),
+        Kind::StrayNumber => (
+            format!("`{found}` where a keyword must be"),
+            KEYWORDS.to_owned(),
+        ),
+        Kind::NotANumber => (
+            format!("`{found}` is not a number"),
+            "expected a number or a keyword".to_owned(),
+        ),
+        Kind::NotFinite => (
+            format!("`{found}` is not finite"),
+            "expected a number of at most 1.797e308 in size".to_owned(),
+        ),
+        Kind::Count { keyword, found } => (
+            format!("`{}` with {}", keyword.text(), numbers(*found)),
+            format!("expected {}", keyword.wants()),
+        ),
+        Kind::VertexCount {
+            keyword,
+            vertices,
+            found,
+        } => {
+            let (each, what) = match keyword {
+                Keyword::Patch => (6, "x y z and normal x y z"),
+                _ => (3, "x y z"),
+            };
+            let wanted = u64::from(*vertices) * each;
+            (
+                format!(
+                    "`{} {vertices}` with {} after it",
+                    keyword.text(),
+                    numbers(*found)
+                ),
+                format!("expected {wanted}: {what} of {vertices} vertices"),
+            )
+        }
+        Kind::NotACount => (
+            format!("`{found}` is not a number of vertices"),
+            format!("expected a whole number from 3 to {}", u32::MAX),
+        ),
+        Kind::View => (
+            "unknown view".to_owned(),
+            format!("expected {}, found `{found}`", Keyword::View.wants()),
+        ),
+        Kind::NoSurface => owned(
+            "object before the first surface",
+            "expected an `f` with the surface of this object before it",
+        ),
+        Kind::Duplicate { keyword, .. } => (
+            format!("a second `{}`", keyword.text()),
+            "expected only one in a file".to_owned(),
+        ),
+        Kind::NoViewpoint => owned(
+            "no viewpoint",
+            "the file ends here; expected `v x y z` somewhere in it",
+        ),
+        Kind::Incomplete { missing } => {
+            let missing: Vec<_> = missing
+                .iter()
+                .map(|keyword| format!("`{}`", keyword.text()))
+                .collect();
+            (
+                format!("camera without {}", missing.join(" and ")),
+                "expected `at`, `up` and `angle` together, and `from` if this `v` has no position"
+                    .to_owned(),
+            )
+        }
+        Kind::TwoEyes => owned(
+            "`from` beside a `v` that has a position",
+            "expected the position either after `v` or after `from`",
+        ),
+        Kind::Fault(fault) => (fault.to_string(), expected(fault, found)),
+    }
+}
+
+/// What would have been right instead of `fault`.
+fn expected(fault: &Fault, found: &str) -> String {
+    let wanted = match fault {
+        Fault::NotFinite => "values whose products are finite",
+        Fault::ZeroRadius => "a radius other than 0",
+        Fault::NegativeRadius => "a radius of at least 0",
+        Fault::ZeroRadii => "at least one radius other than 0",
+        Fault::BaseIsTop => "a top at another place than the base",
+        Fault::FlatBox { .. } => "a length above 0 for every side",
+        Fault::TooFewVertices => "at least 3 vertices",
+        Fault::VertexRange => "vertices that are in the scene",
+        Fault::TooLarge => return format!("expected at most {} in a file", u32::MAX),
+        Fault::RepeatedVertex { vertex: 0 } => {
+            return "same as the last vertex, which needs no repeating: the polygon closes itself"
+                .to_owned();
+        }
+        Fault::RepeatedVertex { .. } => {
+            return "same as the vertex before it; expected another place".to_owned();
+        }
+        Fault::Collinear => return "expected vertices that span a plane".to_owned(),
+        Fault::NotPlanar {
+            distance,
+            tolerance,
+            ..
+        } => {
+            return format!(
+                "{} off the plane of the other vertices, expected no more than {}",
+                rounded(*distance),
+                rounded(*tolerance)
+            );
+        }
+        Fault::ZeroNormal { .. } => "a normal of any other length",
+        Fault::Negative => "at least 0",
+        Fault::RefractionIndex => "above 0, as the surface lets light through",
+        Fault::ViewpointInPlane => "a z other than 0: the picture plane is z = 0",
+        Fault::FromIsAt => return "same as the viewpoint; expected another place".to_owned(),
+        Fault::ZeroUp => "a direction of any other length",
+        Fault::UpParallel => "a direction that differs from the view",
+        Fault::Angle => "above 0 and below 180",
+        Fault::Resolution => "a whole number from 1 to 65535",
+        Fault::SurfaceIndex => "the index of a surface",
+    };
+    format!("expected {wanted}, found `{found}`")
+}
+
+fn numbers(count: usize) -> String {
+    match count {
+        0 => "no number".to_owned(),
+        1 => "1 number".to_owned(),
+        _ => format!("{count} numbers"),
+    }
+}
+
+/// Three significant digits, the shorter of plain and scientific.
+fn rounded(number: f64) -> String {
+    let digits = format!("{number:.2e}");
+    match digits.parse::<f64>() {
+        Ok(number) if (1e-3..1e6).contains(&number) => number.to_string(),
+        _ => digits,
+    }
+}

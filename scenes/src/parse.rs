@@ -1,0 +1,110 @@
+//! Reading scene files: both dialects of MODEL.md from one stream of tokens.
+//!
+//! [`token`] cuts the source at white space, [`entity`] gathers a keyword and the numbers up to the
+//! next one, [`build`] turns each entity into its part of the scene and has it checked, [`header`]
+//! puts together the camera, which is scattered over several keywords. Nothing but the scene grows with the
+//! file, and every byte is looked at once; places are found again only for mistakes.
+
+mod build;
+mod entity;
+mod header;
+mod token;
+
+use crate::diagnostic::{Diagnostics, Sink};
+use crate::model::Scene;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+pub use token::{Keyword, Span};
+
+/// Reads a scene from its text.
+///
+/// # Errors
+/// All mistakes up to [`MOST`](crate::diagnostic::MOST), in the order of the source.
+pub fn parse(source: &str) -> Result<Scene, Diagnostics> {
+    let mut mistakes = Sink::default();
+    let mut entities = entity::Entities::new(source);
+    let mut builder = build::Builder::default();
+    let mut numbers = Vec::new();
+    while let Some(entity) = entities.next(&mut numbers, &mut mistakes) {
+        builder.add(&entity, &numbers, &mut mistakes);
+        if mistakes.ends_reading() {
+            break;
+        }
+    }
+    let scene = builder.finish(source, &mut mistakes);
+    mistakes.into_result(scene)
+}
+
+/// Reads a scene from a file.
+///
+/// # Errors
+/// If there is no such file, if it is no regular file, cannot be read or is not UTF-8, or if there
+/// are mistakes in it. Displayed, the error holds all of them, drawn with their lines.
+pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
+    let path = path.as_ref();
+    let unreadable = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => ReadError::NotFound { path: path.into() },
+        _ => ReadError::Unreadable {
+            path: path.into(),
+            error,
+        },
+    };
+    // A pipe or a device might never end.
+    if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(ReadError::NotAFile { path: path.into() });
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let source = String::from_utf8(bytes).map_err(|error| ReadError::NotText {
+        path: path.into(),
+        offset: error.utf8_error().valid_up_to(),
+    })?;
+    parse(&source).map_err(|diagnostics| ReadError::Mistakes {
+        drawn: diagnostics.draw(&path.display().to_string(), &source),
+        diagnostics,
+    })
+}
+
+/// Why a file gave no scene.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// No such file.
+    #[error("error: {}: no such file", .path.display())]
+    NotFound {
+        /// The path that was asked for.
+        path: PathBuf,
+    },
+    /// A folder, a pipe or a device.
+    #[error("error: {}: not a file", .path.display())]
+    NotAFile {
+        /// The path that was asked for.
+        path: PathBuf,
+    },
+    /// The system refuses it.
+    #[error("error: {}: cannot be read: {error}", .path.display())]
+    Unreadable {
+        /// The path that was asked for.
+        path: PathBuf,
+        /// The system's reason.
+        #[source]
+        error: io::Error,
+    },
+    /// Bytes that are not UTF-8.
+    #[error("error: {}: not a text file: byte {offset} is not UTF-8", .path.display())]
+    NotText {
+        /// The path that was asked for.
+        path: PathBuf,
+        /// The first wrong byte, counted from 0.
+        offset: usize,
+    },
+    /// A text that is no scene.
+    #[error("{drawn}")]
+    Mistakes {
+        /// The mistakes.
+        diagnostics: Diagnostics,
+        /// The mistakes with their lines, for people.
+        drawn: String,
+    },
+}

@@ -1,0 +1,280 @@
+//! From entities to the scene.
+
+use super::entity::Entity;
+use super::header::Header;
+use super::token::{Keyword, Span};
+use crate::check::{self, Fault};
+use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::model::{Light, Object, Point, Scene, Shape, Surface};
+
+/// A scene that grows entity by entity.
+#[derive(Debug, Default)]
+pub(super) struct Builder {
+    header: Header,
+    lights: Vec<Light>,
+    /// Lights without a colour: theirs depends on how many lights there are in the end.
+    colourless: Vec<usize>,
+    surfaces: Vec<Surface>,
+    objects: Vec<Object>,
+    vertices: Vec<Point>,
+    normals: Vec<Point>,
+    /// Whether there was any entity at all.
+    begun: bool,
+}
+
+impl Builder {
+    /// Adds `entity` with its `numbers` to the scene, or says what is wrong with it.
+    pub(super) fn add(&mut self, entity: &Entity<'_>, numbers: &[f64], mistakes: &mut Sink) {
+        self.begun = true;
+        self.header.pass(entity.keyword);
+        let is_object = matches!(
+            entity.keyword,
+            Keyword::Sphere | Keyword::Cone | Keyword::Cuboid | Keyword::Polygon | Keyword::Patch
+        );
+        if is_object && self.surfaces.is_empty() {
+            mistakes.push(Kind::NoSurface, entity.span);
+            self.surfaces.push(Surface::default()); // Once is enough.
+        }
+        if entity.sound {
+            match self.place(entity, numbers) {
+                Ok(()) => return,
+                Err(Diagnostic { kind, span }) => mistakes.push(kind, span),
+            }
+        }
+        // What was wrong once shall not be reported as missing too.
+        match entity.keyword {
+            Keyword::Surface => self.surfaces.push(Surface::default()),
+            keyword => self.header.spoil(keyword, entity.span),
+        }
+    }
+
+    /// The scene. What is missing or does not fit together is put in `mistakes`; if there is any
+    /// mistake, the scene means nothing.
+    pub(super) fn finish(mut self, source: &str, mistakes: &mut Sink) -> Scene {
+        let brightness = 1.0 / (self.lights.len() as f64).sqrt();
+        for index in self.colourless {
+            self.lights[index].colour = [brightness; 3];
+        }
+        let end = source.trim_end().len();
+        let end = Span { start: end, end };
+        if !self.begun && mistakes.is_empty() {
+            mistakes.push(Kind::Empty, end);
+        }
+        let mut scene = self.header.finish(end, mistakes);
+        scene.lights = self.lights;
+        scene.surfaces = self.surfaces;
+        scene.objects = self.objects;
+        scene.vertices = self.vertices;
+        scene.normals = self.normals;
+        scene
+    }
+
+    fn place(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
+        let shape = match entity.keyword {
+            Keyword::Light => return self.light(entity, numbers),
+            Keyword::Surface => return self.surface(entity, numbers),
+            Keyword::Sphere => sphere(entity, numbers)?,
+            Keyword::Cone => cone(entity, numbers)?,
+            Keyword::Cuboid => cuboid(entity, numbers)?,
+            Keyword::Polygon => self.polygon(entity, numbers)?,
+            Keyword::Patch => self.patch(entity, numbers)?,
+            _ => return self.header.place(entity, numbers),
+        };
+        let surface = self.surfaces.len() - 1;
+        let surface = u32::try_from(surface).map_err(|_| entity.fault(0..0, Fault::TooLarge))?;
+        self.objects.push(Object { shape, surface });
+        Ok(())
+    }
+
+    fn light(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
+        let (position, colour) = match *numbers {
+            [x, y, z] => {
+                self.colourless.push(self.lights.len());
+                ([x, y, z], [0.0; 3])
+            }
+            [x, y, z, brightness] => ([x, y, z], [brightness; 3]),
+            [x, y, z, r, g, b] => ([x, y, z], [r, g, b]),
+            _ => return Err(entity.count(numbers)),
+        };
+        entity.not_negative(3, &numbers[3..])?;
+        self.lights.push(Light { position, colour });
+        Ok(())
+    }
+
+    fn surface(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
+        let (mut surface, ior) = match *numbers {
+            [r, g, b, kd, ks, shine, t, ior] => {
+                let surface = Surface {
+                    diffuse: [kd * r, kd * g, kd * b],
+                    specular: [ks; 3],
+                    shine,
+                    reflect: ks,
+                    refract: t,
+                    ..Surface::default()
+                };
+                (surface, Some((7, ior)))
+            }
+            [
+                ar,
+                ag,
+                ab,
+                dr,
+                dg,
+                db,
+                sr,
+                sg,
+                sb,
+                shine,
+                reflect,
+                refract,
+                ref rest @ ..,
+            ] if rest.len() <= 1 => {
+                let surface = Surface {
+                    ambient: [ar, ag, ab],
+                    diffuse: [dr, dg, db],
+                    specular: [sr, sg, sb],
+                    shine,
+                    reflect,
+                    refract,
+                    ior: 1.0,
+                };
+                (surface, rest.first().map(|&ior| (12, ior)))
+            }
+            _ => return Err(entity.count(numbers)),
+        };
+        let coefficients = ior.map_or(numbers.len(), |(index, _)| index);
+        entity.not_negative(0, &numbers[..coefficients])?;
+        // An opaque surface has no inside; files say 0 or anything else there.
+        if let Some((index, ior)) = ior.filter(|_| surface.refract > 0.0) {
+            surface.ior = ior;
+            check::surface(&surface).map_err(|fault| entity.fault(index..index + 1, fault))?;
+        }
+        check::surface(&surface).map_err(|fault| entity.fault(0..4, fault))?;
+        self.surfaces.push(surface);
+        Ok(())
+    }
+
+    fn polygon(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
+        let (count, coordinates) = announced(entity, numbers, 3)?;
+        let (points, _) = coordinates.as_chunks::<3>();
+        check::polygon(points).map_err(|fault| vertex_fault(entity, 3, fault))?;
+        let first = append(&mut self.vertices, points.iter().copied(), entity)?;
+        Ok(Shape::Polygon { first, count })
+    }
+
+    fn patch(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
+        let (count, coordinates) = announced(entity, numbers, 6)?;
+        let (pairs, _) = coordinates.as_chunks::<6>();
+        let vertices = pairs.iter().map(|&[x, y, z, ..]| [x, y, z]);
+        let normals = pairs.iter().map(|&[.., x, y, z]| [x, y, z]);
+        let first = append(&mut self.vertices, vertices, entity)?;
+        let first_normal = append(&mut self.normals, normals, entity)?;
+        check::polygon(&self.vertices[first as usize..])
+            .and_then(|()| check::normals(&self.normals[first_normal as usize..]))
+            .map_err(|fault| vertex_fault(entity, 6, fault))?;
+        Ok(Shape::Patch {
+            first,
+            count,
+            first_normal,
+        })
+    }
+}
+
+fn sphere(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
+    let [x, y, z, radius] = entity.exactly(numbers)?;
+    let (centre, radius) = ([x, y, z], radius.abs());
+    check::sphere(&centre, radius).map_err(|fault| entity.fault(3..4, fault))?;
+    Ok(Shape::Sphere { centre, radius })
+}
+
+fn cone(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
+    let [bx, by, bz, br, tx, ty, tz, tr] = entity.exactly(numbers)?;
+    let (base, base_radius) = ([bx, by, bz], br.abs());
+    let (top, top_radius) = ([tx, ty, tz], tr.abs());
+    check::cone(&base, &top, [base_radius, top_radius]).map_err(|fault| {
+        let blamed = if fault == Fault::BaseIsTop {
+            4..7
+        } else {
+            7..8
+        };
+        entity.fault(blamed, fault)
+    })?;
+    Ok(Shape::Cone {
+        base,
+        base_radius,
+        top,
+        top_radius,
+    })
+}
+
+fn cuboid(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
+    let [x, y, z, sx, sy, sz] = entity.exactly(numbers)?;
+    let (centre, size) = ([x, y, z], [sx, sy, sz]);
+    check::cuboid(&centre, &size).map_err(|fault| {
+        let blamed = if let Fault::FlatBox { axis } = fault {
+            3 + axis..4 + axis
+        } else {
+            0..6
+        };
+        entity.fault(blamed, fault)
+    })?;
+    Ok(Shape::Cuboid { centre, size })
+}
+
+/// Splits a polygon's numbers into the count of vertices and `each` numbers per vertex.
+fn announced<'n>(
+    entity: &Entity<'_>,
+    numbers: &'n [f64],
+    each: usize,
+) -> Result<(u32, &'n [f64]), Diagnostic> {
+    let (&count, coordinates) = numbers.split_first().ok_or_else(|| entity.count(numbers))?;
+    if count.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&count) {
+        return Err(entity.mistake(0..1, Kind::NotACount));
+    }
+    let count = count as u32;
+    if count < 3 {
+        return Err(entity.fault(0..1, Fault::TooFewVertices));
+    }
+    let found = coordinates.len();
+    let wanted = (count as usize).saturating_mul(each);
+    if found != wanted {
+        let blamed = if found > wanted {
+            wanted + 1..found + 1
+        } else {
+            0..1
+        };
+        let kind = Kind::VertexCount {
+            keyword: entity.keyword,
+            vertices: count,
+            found,
+        };
+        return Err(entity.mistake(blamed, kind));
+    }
+    Ok((count, coordinates))
+}
+
+/// Blames the vertex or normal that `fault` names, of `each` numbers per vertex.
+fn vertex_fault(entity: &Entity<'_>, each: usize, fault: Fault) -> Diagnostic {
+    let blamed = match fault {
+        Fault::RepeatedVertex { vertex } | Fault::NotPlanar { vertex, .. } => {
+            1 + vertex * each..4 + vertex * each
+        }
+        Fault::ZeroNormal { vertex } => 4 + vertex * each..7 + vertex * each,
+        _ => 0..0,
+    };
+    entity.fault(blamed, fault)
+}
+
+/// Appends to `list` and returns the index of the first new element.
+fn append(
+    list: &mut Vec<Point>,
+    points: impl Iterator<Item = Point>,
+    entity: &Entity<'_>,
+) -> Result<u32, Diagnostic> {
+    let first = list.len();
+    list.extend(points);
+    match u32::try_from(list.len()) {
+        Ok(_) => Ok(first as u32),
+        Err(_) => Err(entity.fault(0..0, Fault::TooLarge)),
+    }
+}

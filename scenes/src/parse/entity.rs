@@ -1,0 +1,217 @@
+//! Entities: a keyword and all that follows it up to the next keyword.
+
+use super::token::{Keyword, Lexeme, Lexer, Span, Token};
+use crate::check::Fault;
+use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::model::Projection;
+use std::ops::Range;
+
+/// A keyword with what follows it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entity<'s> {
+    pub(crate) keyword: Keyword,
+    /// Where the keyword stands.
+    pub(crate) span: Span,
+    /// The word after `view`.
+    pub(crate) word: Option<Token<'s>>,
+    /// Whether every number could be read. If not, the mistake has been reported and the numbers
+    /// mean nothing.
+    pub(crate) sound: bool,
+    source: &'s str,
+}
+
+impl Entity<'_> {
+    /// Its numbers, if there are as many as wanted.
+    pub(crate) fn exactly<const N: usize>(&self, numbers: &[f64]) -> Result<[f64; N], Diagnostic> {
+        numbers.try_into().map_err(|_| {
+            let blamed = if numbers.len() > N {
+                N..numbers.len()
+            } else {
+                0..0
+            };
+            Diagnostic {
+                span: self.span_of(blamed),
+                ..self.count(numbers)
+            }
+        })
+    }
+
+    /// Checks that none of `numbers` is negative, the first of which is the entity's `first`.
+    pub(crate) fn not_negative(&self, first: usize, numbers: &[f64]) -> Result<(), Diagnostic> {
+        match numbers.iter().position(|&number| number < 0.0) {
+            Some(index) => Err(self.fault(first + index..first + index + 1, Fault::Negative)),
+            None => Ok(()),
+        }
+    }
+
+    /// The projection that `view` names.
+    pub(crate) fn projection(&self, numbers: &[f64]) -> Result<Projection, Diagnostic> {
+        let [] = self.exactly(numbers)?;
+        match self.word.map(|word| word.text) {
+            Some("parallel") => Ok(Projection::Parallel),
+            Some("perspective") => Ok(Projection::Perspective),
+            _ => {
+                let span = self.word.map_or(self.span, |word| word.span());
+                Err(Diagnostic {
+                    kind: Kind::View,
+                    span,
+                })
+            }
+        }
+    }
+
+    /// A wrong count of `numbers`, blamed on the keyword.
+    pub(crate) fn count(&self, numbers: &[f64]) -> Diagnostic {
+        self.mistake(
+            0..0,
+            Kind::Count {
+                keyword: self.keyword,
+                found: numbers.len(),
+            },
+        )
+    }
+
+    /// A wrong value, blamed on the numbers of `blamed`.
+    pub(crate) fn fault(&self, blamed: Range<usize>, fault: Fault) -> Diagnostic {
+        self.mistake(blamed, Kind::Fault(fault))
+    }
+
+    /// A mistake, blamed on the numbers of `blamed`, or on the keyword if that is empty.
+    pub(crate) fn mistake(&self, blamed: Range<usize>, kind: Kind) -> Diagnostic {
+        Diagnostic {
+            kind,
+            span: self.span_of(blamed),
+        }
+    }
+
+    /// Where the numbers of `range` stand, or those of them on the line of the first; of an empty
+    /// range, where the keyword stands. Found by reading the entity again: few ask.
+    pub(crate) fn span_of(&self, range: Range<usize>) -> Span {
+        let words = usize::from(self.word.is_some());
+        let numbers = Lexer::new(self.source, self.span.end)
+            .skip(range.start + words)
+            .take_while(|token| matches!(token.lexeme(), Lexeme::Number(_)))
+            .take(range.len());
+        let mut span = None;
+        for token in numbers {
+            span = match span {
+                None => Some(token.span()),
+                Some(_) if token.opens_line => break,
+                Some(Span { start, .. }) => Some(Span {
+                    start,
+                    end: token.span().end,
+                }),
+            };
+        }
+        span.unwrap_or(self.span)
+    }
+}
+
+/// Reads entities one after the other, reports what fits nowhere and goes on at the next keyword.
+#[derive(Debug)]
+pub(crate) struct Entities<'s> {
+    source: &'s str,
+    lexer: Lexer<'s>,
+    ahead: Option<(Token<'s>, Lexeme)>,
+}
+
+impl<'s> Entities<'s> {
+    pub(crate) fn new(source: &'s str) -> Self {
+        let mut entities = Self {
+            source,
+            lexer: Lexer::new(source, 0),
+            ahead: None,
+        };
+        entities.advance();
+        entities
+    }
+
+    /// The next entity, its numbers in `numbers`; `None` at the end of the source.
+    pub(crate) fn next(
+        &mut self,
+        numbers: &mut Vec<f64>,
+        mistakes: &mut Sink,
+    ) -> Option<Entity<'s>> {
+        let (keyword, span) = self.seek(mistakes)?;
+        let word = if keyword == Keyword::View {
+            self.word()
+        } else {
+            None
+        };
+        let sound = self.numbers(numbers, mistakes);
+        Some(Entity {
+            keyword,
+            span,
+            word,
+            sound,
+            source: self.source,
+        })
+    }
+
+    /// Reads over all that is no keyword; one report for each line that begins with a stranger.
+    fn seek(&mut self, mistakes: &mut Sink) -> Option<(Keyword, Span)> {
+        let mut reported = false;
+        loop {
+            let (token, lexeme) = self.ahead?;
+            let kind = match lexeme {
+                Lexeme::Keyword(keyword) => {
+                    self.advance();
+                    return Some((keyword, token.span()));
+                }
+                Lexeme::Binary => Kind::Binary,
+                Lexeme::Word => Kind::UnknownKeyword,
+                _ => Kind::StrayNumber,
+            };
+            if !reported || (token.opens_line && kind == Kind::UnknownKeyword) {
+                mistakes.push(kind, token.span());
+                reported = true;
+            }
+            if mistakes.ends_reading() {
+                return None;
+            }
+            self.advance();
+        }
+    }
+
+    /// The word after `view`, if there is one.
+    fn word(&mut self) -> Option<Token<'s>> {
+        let (token, lexeme) = self.ahead?;
+        (lexeme == Lexeme::Word).then(|| {
+            self.advance();
+            token
+        })
+    }
+
+    /// Reads the numbers that come next and tells whether there were only numbers. A word on a
+    /// new line ends them: it is a misspelt keyword rather than a misspelt number.
+    fn numbers(&mut self, numbers: &mut Vec<f64>, mistakes: &mut Sink) -> bool {
+        numbers.clear();
+        let mut sound = true;
+        while let Some((token, lexeme)) = self.ahead {
+            let mistake = match lexeme {
+                Lexeme::Keyword(_) => break,
+                Lexeme::Binary => return false,
+                Lexeme::Word if token.opens_line => break,
+                Lexeme::Number(number) => {
+                    numbers.push(number);
+                    None
+                }
+                Lexeme::NotFinite => Some(Kind::NotFinite),
+                Lexeme::Malformed | Lexeme::Word => Some(Kind::NotANumber),
+            };
+            if let Some(kind) = mistake {
+                mistakes.push(kind, token.span());
+                sound = false;
+                if mistakes.ends_reading() {
+                    break;
+                }
+            }
+            self.advance();
+        }
+        sound
+    }
+
+    fn advance(&mut self) {
+        self.ahead = self.lexer.next().map(|token| (token, token.lexeme()));
+    }
+}

@@ -1,0 +1,227 @@
+//! What a scene has once: the camera, whose parts are several entities, the resolution and the
+//! background.
+
+use super::entity::Entity;
+use super::token::{Keyword, Span};
+use crate::check::{self, Fault};
+use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::model::{Camera, Colour, Point, Projection, Scene};
+
+/// Rows and columns where the file says nothing.
+const DEFAULT_SIZE: u32 = 512;
+
+/// The parts that have been read so far.
+#[derive(Debug, Default)]
+pub(super) struct Header {
+    /// The position, if it stands right after `v`.
+    viewpoint: Option<Part<Option<Point>>>,
+    from: Option<Part<Point>>,
+    at: Option<Part<Point>>,
+    up: Option<Part<Point>>,
+    angle: Option<Part<f64>>,
+    hither: Option<Part<f64>>,
+    projection: Option<Part<Projection>>,
+    /// Width and height.
+    resolution: Option<Part<[u32; 2]>>,
+    background: Option<Part<Colour>>,
+    /// Whether we are inside the `v` of NFF, where a resolution has its width first.
+    inside_nff: bool,
+    /// Whether a part of the camera was wrong, so that the whole cannot be judged.
+    spoilt: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Part<T> {
+    value: T,
+    /// Where its keyword stands.
+    keyword: Span,
+    /// Where its numbers stand.
+    numbers: Span,
+}
+
+impl Header {
+    /// Takes note that an entity begins: the `v` of NFF ends at the first foreign keyword.
+    pub(super) fn pass(&mut self, keyword: Keyword) {
+        self.inside_nff &= matches!(
+            keyword,
+            Keyword::From
+                | Keyword::At
+                | Keyword::Up
+                | Keyword::Angle
+                | Keyword::Hither
+                | Keyword::Resolution
+                | Keyword::View
+        );
+    }
+
+    /// Takes note that there was a `keyword`, though a wrong one.
+    pub(super) fn spoil(&mut self, keyword: Keyword, span: Span) {
+        if keyword == Keyword::Viewpoint && self.viewpoint.is_none() {
+            self.viewpoint = Some(Part {
+                value: None,
+                keyword: span,
+                numbers: span,
+            });
+            self.inside_nff = true;
+        }
+        self.spoilt |= matches!(
+            keyword,
+            Keyword::Viewpoint | Keyword::From | Keyword::At | Keyword::Up | Keyword::Angle
+        );
+    }
+
+    /// Takes the part that `entity` is.
+    pub(super) fn place(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
+        match entity.keyword {
+            Keyword::Viewpoint => {
+                let position = match *numbers {
+                    [] => None,
+                    [x, y, z] => Some([x, y, z]),
+                    _ => return Err(entity.count(numbers)),
+                };
+                put(&mut self.viewpoint, position, entity, 2)?;
+                self.inside_nff = position.is_none();
+                Ok(())
+            }
+            Keyword::From => put(&mut self.from, entity.exactly(numbers)?, entity, 0),
+            Keyword::At => put(&mut self.at, entity.exactly(numbers)?, entity, 0),
+            Keyword::Up => put(&mut self.up, entity.exactly(numbers)?, entity, 0),
+            Keyword::Angle => {
+                let [angle] = entity.exactly(numbers)?;
+                put(&mut self.angle, angle, entity, 0)
+            }
+            Keyword::Hither => {
+                let [hither] = entity.exactly(numbers)?;
+                put(&mut self.hither, hither, entity, 0)
+            }
+            Keyword::Resolution => {
+                let sizes: [f64; 2] = entity.exactly(numbers)?;
+                for (index, &size) in sizes.iter().enumerate() {
+                    check::resolution(size)
+                        .map_err(|fault| entity.fault(index..index + 1, fault))?;
+                }
+                let mut sizes = sizes.map(|size| size as u32);
+                if !self.inside_nff {
+                    sizes.reverse();
+                }
+                put(&mut self.resolution, sizes, entity, 0)
+            }
+            Keyword::Background => {
+                let colour = entity.exactly(numbers)?;
+                entity.not_negative(0, &colour)?;
+                put(&mut self.background, colour, entity, 0)
+            }
+            _ => {
+                let projection = entity.projection(numbers)?;
+                put(&mut self.projection, projection, entity, 0)
+            }
+        }
+    }
+
+    /// A scene without objects. What is missing, or does not fit together, is put in `mistakes`.
+    pub(super) fn finish(self, end: Span, mistakes: &mut Sink) -> Scene {
+        let camera = self.camera(end).unwrap_or_else(|mistake| {
+            // After a mistake that ends reading, what is missing may stand in the rest.
+            if let Some(Diagnostic { kind, span }) = mistake.filter(|_| !mistakes.ends_reading()) {
+                mistakes.push(kind, span);
+            }
+            Camera::Thesis {
+                viewpoint: [0.0, 0.0, 1.0],
+                projection: Projection::Perspective,
+            }
+        });
+        let [width, height] = self
+            .resolution
+            .map_or([DEFAULT_SIZE; 2], |resolution| resolution.value);
+        Scene {
+            camera,
+            width,
+            height,
+            background: self
+                .background
+                .map_or([0.0; 3], |background| background.value),
+            lights: Vec::new(),
+            surfaces: Vec::new(),
+            objects: Vec::new(),
+            vertices: Vec::new(),
+            normals: Vec::new(),
+        }
+    }
+
+    /// The camera, or what is wrong with it unless that has been reported.
+    fn camera(&self, end: Span) -> Result<Camera, Option<Diagnostic>> {
+        let mistake = |span, kind| Some(Diagnostic { kind, span });
+        let viewpoint = self
+            .viewpoint
+            .ok_or_else(|| mistake(end, Kind::NoViewpoint))?;
+        if self.spoilt {
+            return Err(None);
+        }
+        let projection = self
+            .projection
+            .map_or(Projection::Perspective, |view| view.value);
+        let from = match (viewpoint.value, self.from) {
+            (Some(_), Some(from)) => return Err(mistake(from.keyword, Kind::TwoEyes)),
+            (position, from) => position.or(from.map(|from| from.value)),
+        };
+        let camera = match (viewpoint.value, from, self.at, self.up, self.angle) {
+            (Some(viewpoint), _, None, None, None) => Camera::Thesis {
+                viewpoint,
+                projection,
+            },
+            (_, Some(from), Some(at), Some(up), Some(angle)) => Camera::Nff {
+                from,
+                at: at.value,
+                up: up.value,
+                angle: angle.value,
+                projection,
+            },
+            (_, from, at, up, angle) => {
+                let parts = [
+                    (from.is_some(), Keyword::From),
+                    (at.is_some(), Keyword::At),
+                    (up.is_some(), Keyword::Up),
+                    (angle.is_some(), Keyword::Angle),
+                ];
+                let missing = parts.into_iter().filter(|part| !part.0).map(|part| part.1);
+                let kind = Kind::Incomplete {
+                    missing: missing.collect(),
+                };
+                return Err(mistake(viewpoint.keyword, kind));
+            }
+        };
+        check::camera(&camera).map_err(|fault| {
+            let part = match fault {
+                Fault::FromIsAt => self.at.map(|at| at.numbers),
+                Fault::ZeroUp | Fault::UpParallel => self.up.map(|up| up.numbers),
+                Fault::Angle => self.angle.map(|angle| angle.numbers),
+                _ => None,
+            };
+            mistake(part.unwrap_or(viewpoint.numbers), Kind::Fault(fault))
+        })?;
+        Ok(camera)
+    }
+}
+
+/// Fills a part that must be empty; its numbers from `first` on are what will be blamed for it.
+fn put<T: Copy>(
+    part: &mut Option<Part<T>>,
+    value: T,
+    entity: &Entity<'_>,
+    first: usize,
+) -> Result<(), Diagnostic> {
+    if let Some(Part { keyword: first, .. }) = *part {
+        let kind = Kind::Duplicate {
+            keyword: entity.keyword,
+            first,
+        };
+        return Err(entity.mistake(0..0, kind));
+    }
+    let numbers = entity.span_of(first..first + 3);
+    *part = Some(Part {
+        value,
+        keyword: entity.span,
+        numbers,
+    });
+    Ok(())
+}

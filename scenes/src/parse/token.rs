@@ -1,0 +1,284 @@
+//! Tokens: what stands between white space, with its place in the source.
+
+/// A range of bytes of the source; always on character boundaries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// The first byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// The words a scene file is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keyword {
+    /// `v`
+    Viewpoint,
+    /// `from`
+    From,
+    /// `at`
+    At,
+    /// `up`
+    Up,
+    /// `angle`
+    Angle,
+    /// `hither`
+    Hither,
+    /// `resolution`
+    Resolution,
+    /// `view`
+    View,
+    /// `b`
+    Background,
+    /// `l`
+    Light,
+    /// `f`
+    Surface,
+    /// `s`
+    Sphere,
+    /// `c`
+    Cone,
+    /// `box`
+    Cuboid,
+    /// `p`
+    Polygon,
+    /// `pp`
+    Patch,
+}
+
+impl Keyword {
+    /// As it is written.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Viewpoint => "v",
+            Self::From => "from",
+            Self::At => "at",
+            Self::Up => "up",
+            Self::Angle => "angle",
+            Self::Hither => "hither",
+            Self::Resolution => "resolution",
+            Self::View => "view",
+            Self::Background => "b",
+            Self::Light => "l",
+            Self::Surface => "f",
+            Self::Sphere => "s",
+            Self::Cone => "c",
+            Self::Cuboid => "box",
+            Self::Polygon => "p",
+            Self::Patch => "pp",
+        }
+    }
+
+    /// What must follow it, in words.
+    pub fn wants(self) -> &'static str {
+        match self {
+            Self::Viewpoint => "3 numbers (x y z), or none, then `from`, `at`, `up` and `angle`",
+            Self::From | Self::At | Self::Up => "3 numbers: x y z",
+            Self::Angle => "1 number: degrees",
+            Self::Hither => "1 number",
+            Self::Resolution => {
+                "2 numbers: height then width, or width then height inside the `v` of NFF"
+            }
+            Self::View => "`parallel` or `perspective`",
+            Self::Background => "3 numbers: red green blue",
+            Self::Light => "3 numbers (x y z), 4 (x y z brightness) or 6 (x y z red green blue)",
+            Self::Surface => {
+                "8 numbers (r g b Kd Ks shine T ior), or 12 or 13 \
+                 (ar ag ab dr dg db sr sg sb shine reflect refract [ior])"
+            }
+            Self::Sphere => "4 numbers: x y z radius",
+            Self::Cone => "8 numbers: base x y z radius, top x y z radius",
+            Self::Cuboid => "6 numbers: centre x y z, side lengths x y z",
+            Self::Polygon => "the number of vertices, then x y z of each",
+            Self::Patch => "the number of vertices, then x y z and normal x y z of each",
+        }
+    }
+
+    fn of(text: &str) -> Option<Self> {
+        Some(match text {
+            "v" => Self::Viewpoint,
+            "from" => Self::From,
+            "at" => Self::At,
+            "up" => Self::Up,
+            "angle" => Self::Angle,
+            "hither" => Self::Hither,
+            "resolution" => Self::Resolution,
+            "view" => Self::View,
+            "b" => Self::Background,
+            "l" => Self::Light,
+            "f" => Self::Surface,
+            "s" => Self::Sphere,
+            "c" => Self::Cone,
+            "box" => Self::Cuboid,
+            "p" => Self::Polygon,
+            "pp" => Self::Patch,
+            _ => return None,
+        })
+    }
+}
+
+/// One token.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Token<'s> {
+    /// Its characters; never empty.
+    pub(crate) text: &'s str,
+    /// Its first byte in the source.
+    pub(crate) start: usize,
+    /// Whether a line break, or nothing at all, stands before it. It only shapes error messages.
+    pub(crate) opens_line: bool,
+}
+
+/// What a token means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Lexeme {
+    Keyword(Keyword),
+    /// A finite number.
+    Number(f64),
+    /// `nan`, `inf`, or a number beyond `f64`.
+    NotFinite,
+    /// Begins like a number but is none.
+    Malformed,
+    /// Any other word.
+    Word,
+    /// Holds a control character: this is no text file.
+    Binary,
+}
+
+impl Token<'_> {
+    pub(crate) fn span(&self) -> Span {
+        Span {
+            start: self.start,
+            end: self.start + self.text.len(),
+        }
+    }
+
+    pub(crate) fn lexeme(&self) -> Lexeme {
+        let numeric = matches!(self.text.as_bytes()[0], b'0'..=b'9' | b'+' | b'-' | b'.');
+        if !numeric && let Some(keyword) = Keyword::of(self.text) {
+            return Lexeme::Keyword(keyword);
+        }
+        match self.text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Lexeme::Number(number),
+            Ok(_) => Lexeme::NotFinite,
+            Err(_) if self.text.chars().any(char::is_control) => Lexeme::Binary,
+            Err(_) if numeric => Lexeme::Malformed,
+            Err(_) => Lexeme::Word,
+        }
+    }
+}
+
+/// Cuts a source into tokens. It keeps no more than its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Lexer<'s> {
+    source: &'s str,
+    at: usize,
+}
+
+impl<'s> Lexer<'s> {
+    /// Reads `source` from byte `at`, a character boundary.
+    pub(crate) fn new(source: &'s str, at: usize) -> Self {
+        Self { source, at }
+    }
+}
+
+impl<'s> Iterator for Lexer<'s> {
+    type Item = Token<'s>;
+
+    fn next(&mut self) -> Option<Token<'s>> {
+        let bytes = self.source.as_bytes();
+        let mut at = self.at;
+        let mut opens_line = at == 0;
+        loop {
+            match *bytes.get(at)? {
+                b'\n' => opens_line = true,
+                b' ' | b'\t' | b'\r' | 0x0b | 0x0c => {}
+                b'#' => {
+                    at += bytes[at..]
+                        .iter()
+                        .take_while(|&&b| b != b'\n' && b != b'\r')
+                        .count();
+                    continue;
+                }
+                0xef if at == 0 && self.source.starts_with('\u{feff}') => at += 2,
+                _ => break,
+            }
+            at += 1;
+        }
+        let start = at;
+        at += bytes[at..]
+            .iter()
+            .take_while(|&&b| !matches!(b, b' ' | b'\t'..=b'\r' | b'#'))
+            .count();
+        self.at = at;
+        Some(Token {
+            text: &self.source[start..at],
+            start,
+            opens_line,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(source: &str) -> Vec<&str> {
+        Lexer::new(source, 0).map(|token| token.text).collect()
+    }
+
+    #[test]
+    fn white_space_and_comments_separate_tokens() {
+        assert_eq!(
+            texts("a\tb\r\nc\x0bd\x0ce  f"),
+            ["a", "b", "c", "d", "e", "f"]
+        );
+        assert_eq!(texts("1#x y\n2 # z\r\n3#"), ["1", "2", "3"]);
+        assert_eq!(texts("\u{feff}v 1"), ["v", "1"]);
+        assert_eq!(texts(" \n# only\n"), [""; 0]);
+    }
+
+    #[test]
+    fn a_comment_ends_at_a_lone_carriage_return() {
+        assert_eq!(texts("a # b\rc"), ["a", "c"]);
+    }
+
+    #[test]
+    fn a_token_knows_its_place() {
+        let tokens: Vec<_> = Lexer::new("v é\n s", 0).collect();
+        assert_eq!(tokens[1].span(), Span { start: 2, end: 4 });
+        assert_eq!(tokens[2].span(), Span { start: 6, end: 7 });
+        assert_eq!(
+            tokens.iter().map(|t| t.opens_line).collect::<Vec<_>>(),
+            [true, false, true]
+        );
+    }
+
+    #[test]
+    fn lexemes() {
+        let lexeme = |text| {
+            Token {
+                text,
+                start: 0,
+                opens_line: false,
+            }
+            .lexeme()
+        };
+        for (text, number) in [
+            ("-1.5e3", -1500.0),
+            ("+.5", 0.5),
+            ("7.", 7.0),
+            ("1e-999", 0.0),
+        ] {
+            assert_eq!(lexeme(text), Lexeme::Number(number), "{text}");
+        }
+        for text in ["nan", "NaN", "-inf", "Infinity", "1e999"] {
+            assert_eq!(lexeme(text), Lexeme::NotFinite, "{text}");
+        }
+        for text in ["1.2.3", "-", "1,5", "0x10", "."] {
+            assert_eq!(lexeme(text), Lexeme::Malformed, "{text}");
+        }
+        assert_eq!(lexeme("box"), Lexeme::Keyword(Keyword::Cuboid));
+        assert_eq!(lexeme("Box"), Lexeme::Word);
+        assert_eq!(lexeme("a\0"), Lexeme::Binary);
+    }
+}
