@@ -1,0 +1,160 @@
+//! Light: what a ray brings back.
+
+use super::Counts;
+use super::read::Scene;
+use super::vector::{Ray, V3};
+
+/// How far off a surface a ray starts, in parts of the coordinates' size; and how far before a
+/// light a shadow ray ends, in parts of its length.
+const APART: f64 = 1e-9;
+
+/// A scene with the limits of its recursion.
+pub(super) struct Tracer<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) max_depth: u32,
+    pub(super) cut_off: f64,
+}
+
+/// The point where a ray met an object.
+struct Meeting {
+    point: V3,
+    /// The size of the coordinates the point was computed from.
+    size: f64,
+    /// The object's own normal at the point.
+    geometric: V3,
+}
+
+impl Tracer<'_> {
+    /// What a ray from the eye brings, not clamped.
+    pub(super) fn eye_ray(&self, ray: &Ray, counts: &mut Counts) -> V3 {
+        if self.cut_off > 1.0 {
+            return V3::ZERO;
+        }
+        counts.primary += 1;
+        self.light_along(ray, 1.0, 0, counts)
+    }
+
+    /// The object a ray meets first, and how far away.
+    pub(super) fn nearest(&self, ray: &Ray) -> Option<(usize, f64)> {
+        let mut nearest = None;
+        let mut limit = f64::INFINITY;
+        for (index, object) in self.scene.objects.iter().enumerate() {
+            if let Some(t) = object.hit(ray, limit) {
+                nearest = Some((index, t));
+                limit = t;
+            }
+        }
+        nearest
+    }
+
+    /// What a ray of a certain weight, after `depth` bounces, brings.
+    fn light_along(&self, ray: &Ray, weight: f64, depth: u32, counts: &mut Counts) -> V3 {
+        let Some((index, t)) = self.nearest(ray) else {
+            return self.scene.background;
+        };
+        if depth == 0 {
+            counts.eye_hits += 1;
+        }
+        let object = &self.scene.objects[index];
+        let surface = &object.surface;
+        let incoming = ray.direction;
+        let point = ray.at(t);
+        let facing = object.shape.facing(point);
+        let size = ray
+            .origin
+            .x
+            .abs()
+            .max(ray.origin.y.abs())
+            .max(ray.origin.z.abs())
+            + t;
+        let meeting = Meeting {
+            point,
+            size,
+            geometric: facing.geometric,
+        };
+
+        let normal = if facing.shading.dot(incoming) > 0.0 {
+            -facing.shading
+        } else {
+            facing.shading
+        };
+        let mirrored = incoming - normal * (2.0 * incoming.dot(normal));
+
+        let mut local = surface.ambient;
+        for light in &self.scene.lights {
+            let to_light = (light.position - point).unit();
+            let cosine = normal.dot(to_light);
+            if cosine > 0.0 && !self.blocked(&meeting, light.position, counts) {
+                let gloss = mirrored.dot(to_light).max(0.0).powf(surface.shine);
+                local = local
+                    + light
+                        .colour
+                        .times(surface.diffuse * cosine + surface.specular * gloss);
+            }
+        }
+
+        let mut sum = local * (1.0 - surface.refract);
+        let worth_tracing =
+            |weight: f64| weight > 0.0 && weight >= self.cut_off && depth < self.max_depth;
+
+        let weight_reflected = weight * surface.reflect;
+        if worth_tracing(weight_reflected) {
+            counts.reflected += 1;
+            let ray = meeting.leave(mirrored);
+            sum =
+                sum + self.light_along(&ray, weight_reflected, depth + 1, counts) * surface.reflect;
+        }
+
+        let weight_transmitted = weight * surface.refract;
+        if worth_tracing(weight_transmitted) {
+            let leaving = facing.solid && facing.geometric.dot(incoming) > 0.0;
+            let kn = if leaving {
+                1.0 / surface.ior
+            } else {
+                surface.ior
+            };
+            if let Some(transmitted) = refract(incoming, normal, kn) {
+                counts.transmitted += 1;
+                let ray = meeting.leave(transmitted);
+                sum = sum
+                    + self.light_along(&ray, weight_transmitted, depth + 1, counts)
+                        * surface.refract;
+            }
+        }
+        sum
+    }
+
+    /// Whether any surface lies between a point and a light.
+    fn blocked(&self, meeting: &Meeting, light: V3, counts: &mut Counts) -> bool {
+        counts.shadow += 1;
+        let start = meeting.leave(light - meeting.point).origin;
+        let ray = Ray::new(start, light - start);
+        let limit = (light - start).length() * (1.0 - APART);
+        let blocked = self
+            .scene
+            .objects
+            .iter()
+            .any(|object| object.hit(&ray, limit).is_some());
+        counts.blocked += u64::from(blocked);
+        blocked
+    }
+}
+
+impl Meeting {
+    /// The ray that goes from here in a direction; it starts off the surface, on the side it leaves
+    /// to.
+    fn leave(&self, direction: V3) -> Ray {
+        let off = (self.size * APART).copysign(self.geometric.dot(direction));
+        Ray::new(self.point + self.geometric * off, direction)
+    }
+}
+
+/// The direction in which a ray goes on behind a surface, by Snell's law: sin θ1 = `kn` · sin θ2,
+/// with `kn` = n2/n1. None at total internal reflection. The unit normal faces the unit incoming
+/// direction.
+pub(super) fn refract(incoming: V3, normal: V3, kn: f64) -> Option<V3> {
+    let cosine1 = -incoming.dot(normal);
+    let along = (incoming + normal * cosine1) * (1.0 / kn);
+    let cosine2_squared = 1.0 - along.dot(along);
+    (cosine2_squared >= 0.0).then(|| along - normal * cosine2_squared.sqrt())
+}
