@@ -8,10 +8,13 @@
 //! | [`diagnostic`] | says what is wrong with a file, where, and what was expected |
 //! | [`check`] | the promises a scene keeps, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
+//! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 
 pub mod check;
 pub mod diagnostic;
 pub mod model;
 pub mod parse;
+pub mod write;
 
 pub use parse::{ReadError, parse, read};
+pub use write::write;

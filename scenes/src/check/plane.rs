@@ -25,22 +25,18 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
         return Err(Fault::RepeatedVertex { vertex });
     }
 
-    let largest = |points: &mut dyn Iterator<Item = Point>| {
-        points
-            .flatten()
-            .fold(0.0, |largest: f64, number| largest.max(number.abs()))
-    };
     let unit = largest(
         &mut vertices
             .iter()
             .map(|vertex| half_difference(vertex, &vertices[0])),
     );
-    if unit == 0.0 {
+    if unit < f64::MIN_POSITIVE {
         return Err(Fault::Collinear);
     }
     // From here on in halves of `unit`, so that squares stay in range.
-    let offset = |vertex: &Point| half_difference(vertex, &vertices[0]).map(|d| d / unit);
-    let coordinate = largest(&mut vertices.iter().copied()) / 2.0 / unit;
+    let scale = 1.0 / unit;
+    let offset = |vertex: &Point| half_difference(vertex, &vertices[0]).map(|d| d * scale);
+    let coordinate = largest(vertices.iter().copied()) * 0.5 * scale;
 
     let a = farthest(vertices.iter().map(offset));
     let size = length(a);
@@ -63,8 +59,7 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
             );
     let tolerance = (1e-4 * coordinate).clamp(1e-4 * size, 1e-2 * size);
     if distance > tolerance {
-        let scale = 2.0 * unit;
-        let (distance, tolerance) = (distance * scale, tolerance * scale);
+        let (distance, tolerance) = (2.0 * distance * unit, 2.0 * tolerance * unit);
         return Err(Fault::NotPlanar {
             vertex,
             distance,
@@ -109,6 +104,13 @@ pub(super) fn length(vector: Point) -> f64 {
 
 fn dot(a: &Point, b: &Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The largest absolute coordinate of `points`.
+fn largest(points: impl Iterator<Item = Point>) -> f64 {
+    points
+        .flatten()
+        .fold(0.0, |largest, number| largest.max(number.abs()))
 }
 
 /// The longest of `vectors`, the first of several; zero if there is none.

@@ -188,27 +188,40 @@ impl<'s> Entities<'s> {
         numbers.clear();
         let mut sound = true;
         while let Some((token, lexeme)) = self.ahead {
-            let mistake = match lexeme {
+            match lexeme {
+                Lexeme::Number(number) => {
+                    numbers.push(number);
+                    self.advance_over(numbers);
+                    continue;
+                }
                 Lexeme::Keyword(_) => break,
                 Lexeme::Binary => return false,
                 Lexeme::Word if token.opens_line => break,
-                Lexeme::Number(number) => {
-                    numbers.push(number);
-                    None
-                }
-                Lexeme::NotFinite => Some(Kind::NotFinite),
-                Lexeme::Malformed | Lexeme::Word => Some(Kind::NotANumber),
-            };
-            if let Some(kind) = mistake {
-                mistakes.push(kind, token.span());
-                sound = false;
-                if mistakes.ends_reading() {
-                    break;
-                }
+                Lexeme::NotFinite => mistakes.push(Kind::NotFinite, token.span()),
+                Lexeme::Malformed | Lexeme::Word => mistakes.push(Kind::NotANumber, token.span()),
+            }
+            sound = false;
+            if mistakes.ends_reading() {
+                break;
             }
             self.advance();
         }
         sound
+    }
+
+    /// Appends the numbers that come next to `numbers` and looks ahead at what is none. Nearly all
+    /// tokens pass here, without being stored.
+    fn advance_over(&mut self, numbers: &mut Vec<f64>) {
+        for token in &mut self.lexer {
+            match token.lexeme() {
+                Lexeme::Number(number) => numbers.push(number),
+                lexeme => {
+                    self.ahead = Some((token, lexeme));
+                    return;
+                }
+            }
+        }
+        self.ahead = None;
     }
 
     fn advance(&mut self) {
