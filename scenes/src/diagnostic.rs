@@ -100,12 +100,12 @@ impl Diagnostics {
 pub(crate) struct Sink {
     list: Vec<Diagnostic>,
     more: bool,
-    binary: bool,
+    hopeless: bool,
 }
 
 impl Sink {
     pub(crate) fn push(&mut self, kind: Kind, span: Span) {
-        self.binary |= kind == Kind::Binary;
+        self.hopeless |= matches!(kind, Kind::Binary | Kind::Empty);
         if self.list.len() < MOST {
             self.list.push(Diagnostic { kind, span });
         } else {
@@ -120,7 +120,7 @@ impl Sink {
 
     /// Whether there are too many mistakes, or one that makes reading on pointless.
     pub(crate) fn ends_reading(&self) -> bool {
-        self.more || self.binary
+        self.more || self.hopeless
     }
 
     /// `value` if there was no mistake.

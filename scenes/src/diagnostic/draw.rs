@@ -5,9 +5,9 @@ use crate::parse::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// How many characters of a line are shown before, inside and after a span.
-const BEFORE: usize = 50;
-const INSIDE: usize = 60;
-const AFTER: usize = 30;
+const BEFORE: usize = 40;
+const INSIDE: usize = 50;
+const AFTER: usize = 40;
 
 pub(super) fn draw(diagnostics: &Diagnostics, path: &str, source: &str) -> String {
     let path = escaped(path);
@@ -107,4 +107,54 @@ fn escaped(text: &str) -> String {
             }
             escaped
         })
+}
+
+#[cfg(test)]
+mod tests {
+    fn drawn(source: &str) -> String {
+        crate::parse(source).unwrap_err().draw("x.scene", source)
+    }
+
+    #[test]
+    fn hostile_characters_are_escaped() {
+        let drawn = drawn("v 0 0 1\nsp\u{202e}here 1 # \u{1b}[31m\u{9d}\t\r\n");
+        assert!(
+            drawn.contains("unknown keyword `sp\\u{202e}here`"),
+            "{drawn}"
+        );
+        assert!(drawn.contains("\\u{1b}[31m\\u{9d}"), "{drawn}");
+        assert!(
+            !drawn.contains(|c: char| c.is_control() && c != '\n'),
+            "{drawn}"
+        );
+    }
+
+    #[test]
+    fn a_megabyte_on_one_line_is_not_shown() {
+        let many = "s 0 0 0 1 ".repeat(100_000);
+        let drawn = drawn(&format!(
+            "v 0 0 1 f 1 1 1 1 0 0 0 0 {many} s 0 0 0 0 {many}"
+        ));
+        assert!(
+            drawn.starts_with("x.scene:1:1000036: error: sphere with radius 0\n"),
+            "{drawn}"
+        );
+        assert!(drawn.len() < 500, "{drawn}");
+    }
+
+    #[test]
+    fn columns_count_characters_and_carets_follow_wide_ones() {
+        let drawn = drawn("v 0 0 1 b \u{e9}\u{4e2d} 0 0");
+        assert!(drawn.starts_with("x.scene:1:11: error:"), "{drawn}");
+        let caret = drawn.lines().find(|line| line.contains('^')).unwrap();
+        assert_eq!(caret.find('^'), Some(14), "{drawn}");
+        assert!(caret.contains("^^^ "), "{drawn}");
+    }
+
+    #[test]
+    fn a_span_at_the_end_of_the_source_can_be_drawn() {
+        for source in ["", "\n", "f", "f\n", "# \u{e9}", "\u{feff}"] {
+            assert!(drawn(source).contains('^'), "{source:?}");
+        }
+    }
 }

@@ -1,0 +1,80 @@
+//! Every mistake in `invalid/` is reported as the file beside it says. After a change of the words
+//! run with `SNAPSHOTS=overwrite` and read the difference.
+
+use octray_scenes::{ReadError, read};
+use snapbox::{Data, assert_data_eq};
+use std::path::Path;
+
+#[test]
+fn mistakes_are_drawn_as_recorded() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("invalid");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_none_or(|extension| extension != "scene")
+        {
+            continue;
+        }
+        let error = read(&path).expect_err(&path.display().to_string());
+        let drawn = error
+            .to_string()
+            .replace(&*folder.to_string_lossy(), "invalid");
+        let expected = Data::read_from(&path.with_extension("stderr"), None).raw();
+        assert_data_eq!(format!("{drawn}\n"), expected);
+        seen += 1;
+    }
+    assert!(seen >= 40, "only {seen} files");
+}
+
+#[test]
+fn what_is_no_text_file_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.scene");
+
+    assert!(matches!(read(&path), Err(ReadError::NotFound { .. })));
+    assert!(matches!(
+        read(folder.path()),
+        Err(ReadError::NotAFile { .. })
+    ));
+
+    std::fs::write(&path, b"v 1 2 3\n# caf\xe9").unwrap();
+    assert!(matches!(
+        read(&path),
+        Err(ReadError::NotText { offset: 13, .. })
+    ));
+    std::fs::write(path.join("below"), "").unwrap_err();
+    assert!(matches!(
+        read(path.join("below")),
+        Err(ReadError::Unreadable { .. })
+    ));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_without_permission_is_unreadable() {
+    use std::os::unix::fs::PermissionsExt;
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let nobody = std::fs::Permissions::from_mode(0);
+    std::fs::set_permissions(file.path(), nobody).unwrap();
+    if std::fs::File::open(file.path()).is_ok() {
+        return; // Nothing is closed to root.
+    }
+    let error = read(file.path()).unwrap_err();
+    assert!(matches!(error, ReadError::Unreadable { .. }), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_path_through_a_file_is_unreadable() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let error = read(file.path().join("below")).unwrap_err();
+    assert!(matches!(error, ReadError::Unreadable { .. }), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_a_file() {
+    assert!(matches!(read("/dev/zero"), Err(ReadError::NotAFile { .. })));
+}
