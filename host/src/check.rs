@@ -1,0 +1,44 @@
+//! `octray check`: what is in a scene, or what is wrong with it.
+
+use crate::error::Error;
+use crate::facts::Facts;
+use crate::interrupt::Interrupt;
+use crate::output;
+use octray_scenes::model::Scene;
+use std::path::{Path, PathBuf};
+
+/// Read each scene and tell in one line on standard output what is in it.
+///
+/// # Errors
+/// [`Error::Scene`] with the mistakes of all scenes that were refused, after the others were told.
+pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
+    let mut refused = Vec::new();
+    for path in scenes {
+        interrupt.check()?;
+        match read(path) {
+            Ok(scene) => output::write_stdout(interrupt, |out| {
+                let (name, facts) = (path.display(), Facts::of(&scene));
+                writeln!(
+                    out,
+                    "{name}: {facts}, {} x {} pixels",
+                    scene.width, scene.height
+                )
+            })?,
+            Err(Error::Scene(text)) => refused.push(text),
+            Err(other) => return Err(other),
+        }
+    }
+    if refused.is_empty() {
+        Ok(())
+    } else {
+        Err(Error::Scene(refused.join("\n\n")))
+    }
+}
+
+/// Read a scene.
+///
+/// # Errors
+/// [`Error::Scene`] when the file cannot be read or holds mistakes.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    octray_scenes::read(path).map_err(|error| Error::Scene(error.to_string()))
+}

@@ -1,0 +1,35 @@
+//! The command line as it is typed: arguments, their help, and the values that each may have.
+//!
+//! A command's arguments turn into a job that the command then runs; whatever is wrong with them is found
+//! here, before any work.
+
+mod check;
+mod diff;
+mod render;
+mod value;
+
+pub use check::CheckArgs;
+pub use diff::DiffArgs;
+pub use render::RenderArgs;
+
+use clap::{Parser, Subcommand};
+
+/// Ray tracer that measures speed against accuracy
+#[derive(Debug, Parser)]
+#[command(name = "octray", version, max_term_width = 100, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// One subcommand with its arguments.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Read scenes, and tell what is in them or what is wrong with them
+    Check(CheckArgs),
+    /// Compare two pictures
+    Diff(DiffArgs),
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";

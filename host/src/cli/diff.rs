@@ -1,0 +1,68 @@
+//! Arguments of `octray diff`.
+
+use super::value;
+use crate::diff::{Bounds, DiffJob, Share};
+use crate::picture::{RasDepth, Target};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `octray diff`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Pictures are PNG, PPM (P6), PFM or Sun rasterfiles, whatever their names, and are compared by their \
+8-bit levels. A pixel's difference is the largest of its channels' differences. The exit code is 1 when \
+any bound is exceeded. In JSON, the PSNR of equal pictures, which is infinite, is null.")]
+pub struct DiffArgs {
+    /// The first picture
+    #[arg(value_name = "A")]
+    a: PathBuf,
+    /// The second picture
+    #[arg(value_name = "B")]
+    b: PathBuf,
+    /// Write a heat map: dim grey where the pictures are equal, violet to yellow where they differ
+    #[arg(short, long, value_name = "FILE", value_parser = value::target())]
+    output: Option<Target>,
+    /// Bits per pixel of a heat map that is a Sun rasterfile
+    #[arg(long, value_name = "BITS", value_enum, default_value_t)]
+    ras_depth: RasDepth,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    json: bool,
+    /// The largest root-mean-square error, in levels
+    #[arg(long, value_name = "LEVELS", value_parser = value::not_negative, help_heading = BOUNDS)]
+    max_rmse: Option<f64>,
+    /// The smallest peak signal-to-noise ratio, in dB
+    #[arg(long, value_name = "DB", value_parser = value::not_negative, help_heading = BOUNDS)]
+    min_psnr: Option<f64>,
+    /// The largest difference of any pixel, in levels
+    #[arg(long, value_name = "LEVELS", help_heading = BOUNDS)]
+    max_difference: Option<u8>,
+    /// The most pixels that differ by more than one level, as a number or in per cent
+    #[arg(long = "max-beyond-1", value_name = "N|P%", value_parser = value::share, help_heading = BOUNDS)]
+    max_beyond_1: Option<Share>,
+    /// The most pixels that differ by more than eight levels, as a number or in per cent
+    #[arg(long = "max-beyond-8", value_name = "N|P%", value_parser = value::share, help_heading = BOUNDS)]
+    max_beyond_8: Option<Share>,
+}
+
+const BOUNDS: &str = "Bounds";
+
+impl DiffArgs {
+    /// The job that these arguments ask for.
+    pub fn job(self) -> DiffJob {
+        DiffJob {
+            a: self.a,
+            b: self.b,
+            heat: self.output,
+            ras_depth: self.ras_depth,
+            json: self.json,
+            bounds: Bounds {
+                rmse: self.max_rmse,
+                psnr: self.min_psnr,
+                largest: self.max_difference,
+                beyond_1: self.max_beyond_1,
+                beyond_8: self.max_beyond_8,
+            },
+        }
+    }
+}

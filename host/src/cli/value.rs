@@ -1,0 +1,92 @@
+//! Values on the command line, checked where they are read.
+
+use crate::diff::Share;
+use crate::picture::Target;
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use std::str::FromStr;
+
+/// A picture file whose extension names its format.
+pub(super) fn target() -> impl TypedValueParser<Value = Target> {
+    PathBufValueParser::new().try_map(Target::new)
+}
+
+/// `WxH`, both 1 to 65535.
+pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some((side(width)?.into(), side(height)?.into())))
+        .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
+}
+
+/// A whole number of at least 1, for one of the `NonZero` types.
+pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
+    text.parse()
+        .map_err(|_| "expected a whole number, at least 1".into())
+}
+
+/// A weight from 0 to 1, as a number or as a fraction such as `1/512`.
+pub(super) fn weight(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.parse::<f64>().ok();
+    let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+    number(above)
+        .zip(number(below))
+        .map(|(above, below)| above / below)
+        .filter(|weight| (0.0..=1.0).contains(weight))
+        .ok_or_else(|| "expected a weight from 0 to 1, such as 0.01 or 1/512".into())
+}
+
+/// A finite number of at least 0.
+pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number >= 0.0)
+        .ok_or_else(|| "expected a number, at least 0".into())
+}
+
+/// A number of pixels, or a percentage of them such as `0.1%`.
+pub(super) fn share(text: &str) -> Result<Share, String> {
+    let expected = "expected a number of pixels, or a percentage of them such as 0.1%";
+    match text.strip_suffix('%') {
+        None => text.parse().map(Share::Pixels).map_err(|_| expected.into()),
+        Some(percent) => not_negative(percent)
+            .ok()
+            .filter(|percent| *percent <= 100.0)
+            .map(Share::Percent)
+            .ok_or_else(|| expected.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        assert_eq!(size("1X65535"), Ok((1, 65535)));
+        for wrong in [
+            "", "640", "0x5", "5x0", "65536x1", "1x2x3", "-1x2", "1.5x2", "ax2",
+        ] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn weights() {
+        assert_eq!(weight("0"), Ok(0.0));
+        assert_eq!(weight("1/512"), Ok(1.0 / 512.0));
+        assert_eq!(weight("1"), Ok(1.0));
+        for wrong in ["", "-0.1", "1.01", "1/0", "0/0", "nan", "inf", "1/2/3", "x"] {
+            assert!(weight(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn shares() {
+        assert_eq!(share("12"), Ok(Share::Pixels(12)));
+        assert_eq!(share("0.5%"), Ok(Share::Percent(0.5)));
+        for wrong in ["", "%", "1.5", "-1", "-1%", "101%", "nan%"] {
+            assert!(share(wrong).is_err(), "{wrong}");
+        }
+    }
+}

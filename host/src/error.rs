@@ -1,0 +1,78 @@
+//! What can go wrong, and the exit code each failure leads to.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// A failure of a command, with everything its message needs.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The arguments contradict each other or what they name; exit code 2.
+    #[error("{0}")]
+    Usage(String),
+    /// A scene was refused; the text holds the drawn diagnostics, ready to print.
+    #[error("{0}")]
+    Scene(String),
+    /// A file could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What the system or the decoder said.
+        source: io::Error,
+    },
+    /// A file could not be written; nothing is left behind.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What the system or the encoder said.
+        source: io::Error,
+    },
+    /// Standard output could not be written.
+    #[error("cannot write to standard output: {0}")]
+    Stdout(io::Error),
+    /// Whoever read standard output has stopped; not a failure, exit code 0.
+    #[error("standard output was closed")]
+    BrokenPipe,
+    /// Two pictures cannot be compared, being of different sizes (width, height).
+    #[error("the pictures differ in size: {}x{} and {}x{}", .0.0, .0.1, .1.0, .1.1)]
+    Sizes((u32, u32), (u32, u32)),
+    /// Two pictures differ by more than the bounds given; one sentence for each bound.
+    #[error("{}", .0.join("\n"))]
+    Bounds(Vec<String>),
+    /// Work that was accepted could not be done, for the reason told.
+    #[error("{0}")]
+    Failed(String),
+    /// The user asked to stop; exit code 130, as shells have it for Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl Error {
+    /// A failure to read `path`.
+    pub fn read(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    /// A failure to write `path`.
+    pub fn write(path: &Path, source: io::Error) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    /// 2 for bad usage, 130 for an interrupt, 0 for a reader that went away, 1 for the rest.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Usage(_) => 2,
+            Self::Interrupted => 130,
+            Self::BrokenPipe => 0,
+            _ => 1,
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! The command `octray`, as a library so that tests and reports can use its parts.
+//!
+//! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
+//! command runs ([`render`], [`check`], [`diff`]) to an exit code ([`error`]).
+//!
+//! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
+//! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
+//! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
+//! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
+//! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
+
+pub mod check;
+pub mod cli;
+pub mod diff;
+pub mod error;
+pub mod facts;
+pub mod heat;
+pub mod interrupt;
+pub mod job;
+pub mod metric;
+pub mod output;
+pub mod packets;
+pub mod picture;
+pub mod progress;
+pub mod render;
+pub mod schedule;
+pub mod stats;
+pub mod summary;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use error::Error;
+use interrupt::Interrupt;
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Do what a command line asks for; messages go to standard error. The exit code is 0 when done, 1 when it
+/// failed, 2 for bad usage and 130 when interrupted.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(answer) => {
+            // Help or a complaint; if nobody reads it, so be it.
+            let _ = answer.print();
+            return match answer.use_stderr() {
+                true => ExitCode::from(2),
+                false => ExitCode::SUCCESS,
+            };
+        }
+    };
+    match run(cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            tell(&error);
+            error.exit_code()
+        }
+    }
+}
+
+fn run(command: Command) -> Result<(), Error> {
+    let interrupt = Interrupt::on_signal()?;
+    match command {
+        Command::Check(args) => check::run(&args.scenes, &interrupt),
+        Command::Diff(args) => diff::run(&args.job(), &interrupt),
+    }
+}
+
+/// Write a failure to standard error, in the form that bad arguments are told in.
+fn tell(error: &Error) {
+    let mut stderr = io::stderr().lock();
+    // Nothing is left to do if that fails.
+    let _ = match error {
+        Error::BrokenPipe => Ok(()),
+        // Drawn diagnostics bring their own heading.
+        Error::Scene(_) | Error::Interrupted => writeln!(stderr, "{error}"),
+        Error::Usage(_) => writeln!(
+            stderr,
+            "error: {error}\n\nFor more information, try '--help'."
+        ),
+        _ => writeln!(stderr, "error: {error}"),
+    };
+}

@@ -1,0 +1,249 @@
+//! Writing whole files or nothing: a temporary file in the same folder, renamed once complete.
+
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+const BUFFER: usize = 1 << 16;
+
+/// Write the file `path` by calling `fill` with where to write.
+///
+/// A regular file appears (or is replaced) only once `fill` has ended well; until then, and after any
+/// failure or interrupt, `path` is as it was. A symbolic link is followed. What is no regular file (a
+/// device, a pipe) is written directly.
+///
+/// # Errors
+/// [`Error::Write`] naming `path` and the cause, [`Error::Interrupted`] when asked to stop meanwhile.
+pub fn write_file(
+    path: &Path,
+    interrupt: &Interrupt,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    let write = || -> io::Result<()> {
+        match Sink::open(path)? {
+            Sink::Device(file) => through(file, interrupt, fill).map(drop),
+            Sink::Regular { temporary, target } => {
+                let temporary = through(temporary, interrupt, fill)?;
+                stop_if(interrupt)?;
+                temporary.persist(target).map_err(|failed| failed.error)?;
+                Ok(())
+            }
+        }
+    };
+    write().map_err(|source| {
+        if interrupt.requested() {
+            Error::Interrupted
+        } else {
+            Error::write(path, source)
+        }
+    })
+}
+
+/// Find out before long work whether `path` could be written, leaving no trace. Devices and pipes are
+/// not touched, for a reader of theirs might notice.
+///
+/// # Errors
+/// [`Error::Write`] as [`write_file`] would give it.
+pub fn probe(path: &Path) -> Result<(), Error> {
+    if fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return Ok(());
+    }
+    Sink::open(path)
+        .map(drop)
+        .map_err(|source| Error::write(path, source))
+}
+
+/// Write to standard output by calling `fill`.
+///
+/// # Errors
+/// [`Error::BrokenPipe`] when the reader has gone, [`Error::Stdout`] for any other failure,
+/// [`Error::Interrupted`] when asked to stop meanwhile.
+pub fn write_stdout(
+    interrupt: &Interrupt,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    through(io::stdout().lock(), interrupt, fill)
+        .map(drop)
+        .map_err(|source| match source.kind() {
+            _ if interrupt.requested() => Error::Interrupted,
+            io::ErrorKind::BrokenPipe => Error::BrokenPipe,
+            _ => Error::Stdout(source),
+        })
+}
+
+/// Where the bytes of a file go.
+enum Sink {
+    /// Beside the target, under another name.
+    Regular {
+        temporary: NamedTempFile,
+        target: PathBuf,
+    },
+    /// Into what is there already.
+    Device(File),
+}
+
+impl Sink {
+    fn open(path: &Path) -> io::Result<Self> {
+        let target = match fs::metadata(path) {
+            Ok(found) if found.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+            Ok(found) if found.is_file() => {
+                // Refuse what the user has protected: a rename would not.
+                OpenOptions::new().write(true).open(path)?;
+                path.canonicalize()?
+            }
+            Ok(_) => return OpenOptions::new().write(true).open(path).map(Self::Device),
+            Err(_) => path.to_owned(),
+        };
+        let folder = match target.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        // Opened by std, so that the permissions are the usual ones and an error names no temporary file.
+        let temporary = tempfile::Builder::new()
+            .prefix(".octray-")
+            .make_in(folder, |path| File::create_new(path))?;
+        Ok(Self::Regular { temporary, target })
+    }
+}
+
+/// Let `fill` write into `inner` through a buffer that fails once an interrupt is requested.
+fn through<W: Write>(
+    inner: W,
+    interrupt: &Interrupt,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<W> {
+    let mut buffer = BufWriter::with_capacity(BUFFER, Polled { inner, interrupt });
+    fill(&mut buffer)?;
+    buffer.flush()?;
+    Ok(buffer
+        .into_inner()
+        .map_err(io::IntoInnerError::into_error)?
+        .inner)
+}
+
+/// A writer that looks for an interrupt before it writes.
+struct Polled<'a, W> {
+    inner: W,
+    interrupt: &'a Interrupt,
+}
+
+impl<W: Write> Write for Polled<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        stop_if(self.interrupt)?;
+        self.inner.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+/// Not `ErrorKind::Interrupted`: that one makes `write_all` try again.
+fn stop_if(interrupt: &Interrupt) -> io::Result<()> {
+    if interrupt.requested() {
+        Err(io::Error::other("interrupted"))
+    } else {
+        Ok(())
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn entries(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.ppm");
+        fs::write(&path, "old").unwrap();
+        let result = write_file(&path, &Interrupt::new(), |out| {
+            out.write_all(&[0; 3 * BUFFER])?;
+            Err(io::Error::other("no more"))
+        });
+        assert_eq!(
+            result.unwrap_err().to_string(),
+            format!("cannot write {}: no more", path.display())
+        );
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(entries(folder.path()), ["a.ppm"]);
+    }
+
+    #[test]
+    fn an_interrupt_while_writing_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.ppm");
+        let interrupt = Interrupt::new();
+        let result = write_file(&path, &interrupt, |out| {
+            interrupt.request();
+            out.write_all(b"half")
+        });
+        assert!(matches!(result, Err(Error::Interrupted)));
+        assert!(entries(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn a_link_to_a_file_stays_a_link_and_a_device_is_written_directly() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_file(&link, &Interrupt::new(), |out| out.write_all(b"new")).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        write_file(Path::new("/dev/null"), &Interrupt::new(), |out| {
+            out.write_all(b"gone")
+        })
+        .unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[test]
+    fn a_full_device_is_told() {
+        let full = Path::new("/dev/full");
+        if full.exists() {
+            let result = write_file(full, &Interrupt::new(), |out| out.write_all(b"x"));
+            let text = result.unwrap_err().to_string();
+            assert!(
+                text.starts_with("cannot write /dev/full: No space left"),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_probe_leaves_no_trace_and_finds_a_missing_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        probe(&folder.path().join("a.png")).unwrap();
+        assert!(entries(folder.path()).is_empty());
+        let text = probe(&folder.path().join("no/a.png"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            text.contains("no/a.png") && !text.contains(".octray-"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn a_new_file_has_the_usual_permissions() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
+        write_file(&ours, &Interrupt::new(), |out| out.write_all(b"x")).unwrap();
+        fs::write(&plain, "x").unwrap();
+        let mode = |path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&ours), mode(&plain));
+    }
+}

@@ -1,0 +1,170 @@
+//! Pictures: 8-bit levels, float intensities where asked for, and the files that hold them.
+
+mod format;
+mod netpbm;
+mod palette;
+mod pfm;
+mod png;
+mod ppm;
+mod ras;
+
+pub use format::{Format, RasDepth, Target, read};
+
+use fnv::FnvHasher;
+use std::hash::Hasher;
+
+/// Red, green and blue in 8 bits, 255 being full intensity.
+pub type Level = [u8; 3];
+
+/// Red, green and blue as linear intensities, 1 being full intensity.
+pub type Intensity = [f32; 3];
+
+/// A picture, rows from top to bottom, columns from left to right.
+///
+/// The levels are the picture: whoever traces computes them in the scene's own arithmetic as
+/// ⌊255·c + ½⌋ of the clamped intensity. Intensities are there only for formats that can hold them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    levels: Vec<Level>,
+    intensities: Option<Vec<Intensity>>,
+}
+
+impl Picture {
+    /// A black picture, with room for intensities if `intensities`; `None` when there is not enough memory.
+    pub fn black(width: u32, height: u32, intensities: bool) -> Option<Self> {
+        let pixels = usize::try_from(u64::from(width) * u64::from(height)).ok()?;
+        Some(Self {
+            width,
+            height,
+            levels: zeroed(pixels)?,
+            intensities: match intensities {
+                true => Some(zeroed(pixels)?),
+                false => None,
+            },
+        })
+    }
+
+    /// A picture of these levels; `None` unless there are width × height of them.
+    pub fn from_levels(width: u32, height: u32, levels: Vec<Level>) -> Option<Self> {
+        (levels.len() as u64 == u64::from(width) * u64::from(height)).then_some(Self {
+            width,
+            height,
+            levels,
+            intensities: None,
+        })
+    }
+
+    /// A picture of these intensities, its levels computed here by [`level`]; `None` unless there are
+    /// width × height of them.
+    pub fn from_intensities(width: u32, height: u32, intensities: Vec<Intensity>) -> Option<Self> {
+        let levels = intensities.iter().map(|rgb| rgb.map(level)).collect();
+        let picture = Self::from_levels(width, height, levels)?;
+        Some(Self {
+            intensities: Some(intensities),
+            ..picture
+        })
+    }
+
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// All levels, row by row.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// All intensities, row by row, if the picture has them.
+    pub fn intensities(&self) -> Option<&[Intensity]> {
+        self.intensities.as_deref()
+    }
+
+    /// Levels and intensities to write into, row by row.
+    pub fn pixels_mut(&mut self) -> (&mut [Level], Option<&mut [Intensity]>) {
+        (&mut self.levels, self.intensities.as_deref_mut())
+    }
+
+    /// The levels, a row at a time from the top.
+    pub fn rows(&self) -> std::slice::ChunksExact<'_, Level> {
+        self.levels.chunks_exact(self.width.max(1) as usize)
+    }
+
+    /// FNV-1a, 64 bits, of the width and the height (32 bits each, little-endian) and then of all levels,
+    /// row by row: the same on every machine for the same picture.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = FnvHasher::default();
+        hasher.write(&self.width.to_le_bytes());
+        hasher.write(&self.height.to_le_bytes());
+        hasher.write(self.levels.as_flattened());
+        hasher.finish()
+    }
+}
+
+/// ⌊255·c + ½⌋ of `c` clamped to [0, 1], computed in `f64`; 0 for NaN.
+pub fn level(c: f32) -> u8 {
+    // The cast saturates, truncates towards zero, and takes NaN to 0.
+    (255.0 * f64::from(c.clamp(0.0, 1.0)) + 0.5) as u8
+}
+
+fn zeroed<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count).ok()?;
+    values.resize(count, T::default());
+    Some(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_round_half_up_and_clamp() {
+        let cases = [
+            (0.0, 0),
+            (0.5 / 255.0 - 1e-6, 0),
+            (0.5 / 255.0 + 1e-6, 1),
+            (0.5, 128),
+            (1.0, 255),
+            (7.0, 255),
+            (-1.0, 0),
+            (f32::NAN, 0),
+            (f32::INFINITY, 255),
+        ];
+        for (c, expected) in cases {
+            assert_eq!(level(c), expected, "{c}");
+        }
+    }
+
+    #[test]
+    fn a_picture_needs_as_many_pixels_as_it_has_places() {
+        assert!(Picture::from_levels(2, 2, vec![[0; 3]; 3]).is_none());
+        assert!(Picture::from_levels(2, 2, vec![[0; 3]; 4]).is_some());
+        assert!(Picture::black(u32::MAX, u32::MAX, true).is_none());
+    }
+
+    #[test]
+    fn the_hash_is_the_published_fnv_1a_of_size_and_levels() {
+        // Computed by hand from the definition: offset basis cbf29ce484222325, prime 100000001b3.
+        let bytes = [1, 0, 0, 0, 2, 0, 0, 0, 10, 20, 30, 40, 50, 60u8];
+        let expected = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
+        });
+        let picture = Picture::from_levels(1, 2, vec![[10, 20, 30], [40, 50, 60]]).unwrap();
+        assert_eq!(picture.hash(), expected);
+        let turned = Picture::from_levels(2, 1, picture.levels().to_vec()).unwrap();
+        assert_ne!(turned.hash(), expected);
+    }
+}

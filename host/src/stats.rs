@@ -1,0 +1,169 @@
+//! What a rendering cost: the object that `--stats json` prints.
+
+use crate::facts::Facts;
+use crate::job::{Arith, Tree};
+use crate::schedule::Schedule;
+use serde::{Serialize, Serializer};
+
+/// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
+/// that are for the summary only are left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stats {
+    /// The scene file as it was named.
+    pub scene: String,
+    /// What is in it.
+    #[serde(skip)]
+    pub facts: Facts,
+    /// The picture file as it was named.
+    #[serde(skip)]
+    pub picture: String,
+    /// The arithmetic that was asked for.
+    pub arith: Arith,
+    /// The number format that was used, e.g. `i16f16`.
+    pub format: String,
+    /// The scene was scaled by 2 to this power to fit the format.
+    #[serde(skip)]
+    pub scale: i32,
+    /// Columns and rows of the picture.
+    pub size: (u32, u32),
+    /// Rays by kind.
+    pub rays: Rays,
+    /// Voxels or nodes that rays went through.
+    pub steps: u64,
+    /// Objects that rays were tested against.
+    pub tests: u64,
+    /// Tests that found a hit.
+    pub hits: u64,
+    /// Fixed-point results that had to be clamped to the format's range.
+    pub saturations: u64,
+    /// The octree.
+    pub octree: Octree,
+    /// Time per stage.
+    pub seconds: Seconds,
+    /// Threads that traced.
+    pub threads: usize,
+    /// How packets were dealt to them.
+    pub schedule: Schedule,
+    /// How many packets there were.
+    pub packets: usize,
+    /// [`crate::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
+    #[serde(serialize_with = "hexadecimal")]
+    pub hash: u64,
+}
+
+/// Rays by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Rays {
+    /// From the eye.
+    pub primary: u64,
+    /// Towards a light.
+    pub shadow: u64,
+    /// Those of them that met something on the way.
+    pub blocked: u64,
+    /// Mirrored.
+    pub reflected: u64,
+    /// Passed on through a transparent surface.
+    pub transmitted: u64,
+}
+
+impl Rays {
+    /// All rays; the blocked ones are among the shadow rays.
+    pub fn total(&self) -> u64 {
+        self.primary + self.shadow + self.reflected + self.transmitted
+    }
+}
+
+/// The octree that was built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Octree {
+    /// Its kind.
+    pub kind: Tree,
+    /// Nodes.
+    pub nodes: u64,
+    /// Links from leaves to objects.
+    pub links: u64,
+    /// The deepest level of nodes, the root being level 0.
+    pub depth: u32,
+    /// Leaves that hold more objects than asked for because the arena was full.
+    pub unsplit: u64,
+}
+
+/// Wall-clock time per stage, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Reading the scene.
+    pub parse: f64,
+    /// Converting it and building the octree.
+    pub build: f64,
+    /// Tracing.
+    pub render: f64,
+}
+
+fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&format_args!("{hash:016x}"))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// Statistics in which every number is another.
+    pub(crate) fn example() -> Stats {
+        Stats {
+            scene: "scenes/figure-19.scene".into(),
+            facts: Facts {
+                spheres: 62,
+                polygons: 1,
+                surfaces: 3,
+                lights: 2,
+                ..Facts::default()
+            },
+            picture: "figure-19.png".into(),
+            arith: Arith::Auto,
+            format: "i12f20".into(),
+            scale: -3,
+            size: (512, 256),
+            rays: Rays {
+                primary: 131_072,
+                shadow: 200_000,
+                blocked: 34_567,
+                reflected: 50_001,
+                transmitted: 0,
+            },
+            steps: 1_234_567,
+            tests: 765_432,
+            hits: 180_000,
+            saturations: 5,
+            octree: Octree {
+                kind: Tree::Tight,
+                nodes: 11,
+                links: 63,
+                depth: 4,
+                unsplit: 0,
+            },
+            seconds: Seconds {
+                parse: 0.000_75,
+                build: 0.0025,
+                render: 0.25,
+            },
+            threads: 2,
+            schedule: Schedule::Dynamic,
+            packets: 64,
+            hash: 0x0012_3456_789a_bcde,
+        }
+    }
+
+    #[test]
+    fn the_json_object_has_the_documented_fields_in_order() {
+        let text = serde_json::to_string(&example()).unwrap();
+        let expected = concat!(
+            r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
+            r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
+            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
+            r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
+            r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
+            r#""threads":2,"schedule":"dynamic","packets":64,"hash":"00123456789abcde"}"#,
+        );
+        assert_eq!(text, expected);
+    }
+}

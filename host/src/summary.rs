@@ -1,0 +1,190 @@
+//! The statistics of a rendering as a summary to read.
+
+use crate::facts::thousands;
+use crate::stats::Stats;
+use std::fmt;
+
+/// Shows [`Stats`] as aligned lines, each ended.
+pub struct Summary<'a>(pub &'a Stats);
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let stats = self.0;
+        let (rays, seconds) = (&stats.rays, &stats.seconds);
+        line(f, "scene", &format!("{}: {}", stats.scene, stats.facts))?;
+        let (width, height) = stats.size;
+        let picture = format!(
+            "{}: {width} x {height} pixels, hash {:016x}",
+            stats.picture, stats.hash
+        );
+        line(f, "picture", &picture)?;
+        line(f, "arithmetic", &arithmetic(stats))?;
+        line(f, "octree", &tree(stats))?;
+        count(f, "rays", rays.total(), "")?;
+        count(f, "  primary", rays.primary, "")?;
+        let blocked = format!("  {} of them blocked", thousands(rays.blocked));
+        count(f, "  shadow", rays.shadow, &blocked)?;
+        count(f, "  reflected", rays.reflected, "")?;
+        count(f, "  transmitted", rays.transmitted, "")?;
+        count(
+            f,
+            "voxel steps",
+            stats.steps,
+            &per_ray(stats.steps, rays.total()),
+        )?;
+        count(
+            f,
+            "object tests",
+            stats.tests,
+            &per_ray(stats.tests, rays.total()),
+        )?;
+        count(f, "hits", stats.hits, &per_ray(stats.hits, rays.total()))?;
+        if stats.saturations > 0 {
+            count(f, "saturations", stats.saturations, "")?;
+        }
+        let stages = [
+            ("parse", seconds.parse),
+            ("build", seconds.build),
+            ("render", seconds.render),
+        ];
+        let stages = stages.map(|(stage, seconds)| format!("{stage} {}", duration(seconds)));
+        line(f, "time", &stages.join(", "))?;
+        line(f, "work", &work(stats))?;
+        Ok(())
+    }
+}
+
+fn line(f: &mut fmt::Formatter<'_>, name: &str, text: &str) -> fmt::Result {
+    writeln!(f, "{name:<14}{text}")
+}
+
+fn count(f: &mut fmt::Formatter<'_>, name: &str, number: u64, more: &str) -> fmt::Result {
+    writeln!(f, "{name:<14}{:>15}{more}", thousands(number))
+}
+
+fn arithmetic(stats: &Stats) -> String {
+    let name = stats.arith.name();
+    let format = match stats.format == name {
+        true => String::new(),
+        false => format!(": {}", stats.format),
+    };
+    let scale = match stats.scale {
+        0 => String::new(),
+        power => format!(", scene scaled by 2^{power}"),
+    };
+    format!("{name}{format}{scale}")
+}
+
+fn tree(stats: &Stats) -> String {
+    let octree = &stats.octree;
+    let unsplit = match octree.unsplit {
+        0 => String::new(),
+        leaves => format!(
+            ", arena full: {} leaves larger than asked for",
+            thousands(leaves)
+        ),
+    };
+    format!(
+        "{}: {} nodes, {} links, depth {}{unsplit}",
+        octree.kind.name(),
+        thousands(octree.nodes),
+        thousands(octree.links),
+        octree.depth
+    )
+}
+
+fn per_ray(number: u64, rays: u64) -> String {
+    match rays {
+        0 => String::new(),
+        _ => format!("  {:.2} per ray", number as f64 / rays as f64),
+    }
+}
+
+fn work(stats: &Stats) -> String {
+    let speed = match stats.seconds.render {
+        seconds if seconds > 0.0 => {
+            let speed = stats.rays.total() as f64 / seconds;
+            format!("{} rays/s, ", thousands(speed.round() as u64))
+        }
+        _ => String::new(),
+    };
+    let plural = |count| if count == 1 { "" } else { "s" };
+    format!(
+        "{speed}{} thread{}, {} packet{}, {} schedule",
+        stats.threads,
+        plural(stats.threads),
+        thousands(stats.packets as u64),
+        plural(stats.packets),
+        stats.schedule.name()
+    )
+}
+
+/// Seconds to three digits, in a unit that suits.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.000_999_5 => format!("{:.0} us", s * 1e6),
+        s if s < 0.099_95 => format!("{:.1} ms", s * 1e3),
+        s if s < 0.999_5 => format!("{:.0} ms", s * 1e3),
+        s if s < 99.95 => format!("{s:.2} s"),
+        s => format!("{s:.0} s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stats::tests::example;
+    use snapbox::{assert_data_eq, str};
+
+    #[test]
+    fn the_summary_reads_well() {
+        assert_data_eq!(
+            Summary(&example()).to_string(),
+            str![[r#"
+scene         scenes/figure-19.scene: 62 spheres, 1 polygon, 3 surfaces, 2 lights
+picture       figure-19.png: 512 x 256 pixels, hash 00123456789abcde
+arithmetic    auto: i12f20, scene scaled by 2^-3
+octree        tight: 11 nodes, 63 links, depth 4
+rays                  381,073
+  primary             131,072
+  shadow              200,000  34,567 of them blocked
+  reflected            50,001
+  transmitted               0
+voxel steps         1,234,567  3.24 per ray
+object tests          765,432  2.01 per ray
+hits                  180,000  0.47 per ray
+saturations                 5
+time          parse 750 us, build 2.5 ms, render 250 ms
+work          1,524,292 rays/s, 2 threads, 64 packets, dynamic schedule
+
+"#]]
+        );
+    }
+
+    #[test]
+    fn a_full_arena_is_told_and_plain_arithmetic_named_once() {
+        let mut stats = example();
+        (stats.arith, stats.format, stats.scale) = (crate::job::Arith::F32, "f32".into(), 0);
+        (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
+        let text = Summary(&stats).to_string();
+        assert!(text.contains("arithmetic    f32\n"), "{text}");
+        assert!(text.contains("depth 4, arena full: 7 leaves"), "{text}");
+        assert!(!text.contains("rays/s"), "{text}");
+    }
+
+    #[test]
+    fn durations_have_a_unit_that_suits() {
+        let cases = [
+            (0.000_001, "1 us"),
+            (0.000_999_6, "1.0 ms"),
+            (0.0123, "12.3 ms"),
+            (0.25, "250 ms"),
+            (0.9996, "1.00 s"),
+            (12.3456, "12.35 s"),
+            (1234.5, "1234 s"),
+        ];
+        for (seconds, text) in cases {
+            assert_eq!(duration(seconds), text);
+        }
+    }
+}
