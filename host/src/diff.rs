@@ -89,7 +89,9 @@ impl Bounds {
             bound
                 .filter(|bound| !bound.allows(found, pixels))
                 .map(|bound| {
-                    format!("{found} pixels differ by more than {what}, at most {bound} allowed")
+                    format!(
+                        "pixels that differ by more than {what}: {found}, at most {bound} allowed"
+                    )
                 })
         };
         let sentences = [
@@ -172,9 +174,10 @@ impl fmt::Display for Table<'_> {
             true => "infinite: the pictures are equal".into(),
             false => format!("{:.2} dB", difference.psnr()),
         };
+        let all = thousands(difference.pixels);
         let pixels = |count: u64| {
             let percent = 100.0 * count as f64 / difference.pixels.max(1) as f64;
-            format!("{} pixels ({percent:.3} %)", thousands(count))
+            format!("{} of {all} pixels ({percent:.3} %)", thousands(count))
         };
         writeln!(f, "PSNR                {psnr}")?;
         writeln!(f, "RMSE                {:.4} levels", difference.rmse())?;
@@ -222,8 +225,8 @@ mod tests {
             "the RMSE is 2.0000 levels, at most 1.9 allowed",
             "the PSNR is 42.11 dB, at least 42.12 demanded",
             "the largest difference is 9 levels, at most 8 allowed",
-            "10 pixels differ by more than one level, at most 0.99 % allowed",
-            "1 pixels differ by more than eight levels, at most 0 allowed",
+            "pixels that differ by more than one level: 10, at most 0.99 % allowed",
+            "pixels that differ by more than eight levels: 1, at most 0 allowed",
         ];
         assert_eq!(tight.exceeded(&DIFFERENCE), sentences);
     }

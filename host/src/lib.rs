@@ -74,6 +74,9 @@ fn tell(error: &Error) {
         Error::BrokenPipe => Ok(()),
         // Drawn diagnostics bring their own heading.
         Error::Scene(_) | Error::Interrupted => writeln!(stderr, "{error}"),
+        Error::Bounds(exceeded) => exceeded
+            .iter()
+            .try_for_each(|sentence| writeln!(stderr, "error: {sentence}")),
         Error::Usage(_) => writeln!(
             stderr,
             "error: {error}\n\nFor more information, try '--help'."

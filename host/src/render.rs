@@ -102,3 +102,115 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         hash: traced.picture.hash(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions, WorkOptions};
+    use crate::picture::{self, RasDepth, Target};
+    use crate::schedule::Schedule;
+    use std::fs;
+    use std::num::{NonZeroU32, NonZeroUsize};
+    use std::path::Path;
+
+    fn job(folder: &Path, scene: &str, output: &str) -> RenderJob {
+        let path = folder.join("a.scene");
+        fs::write(&path, scene).unwrap();
+        RenderJob {
+            scene: path,
+            output: Target::new(folder.join(output)).unwrap(),
+            ras_depth: RasDepth::Eight,
+            arith: Arith::F32,
+            tree: TreeOptions {
+                kind: Tree::None,
+                depth: None,
+                leaf_size: None,
+                arena: None,
+                link: Link::Shape,
+            },
+            view: ViewOptions {
+                size: None,
+                pixels_per_ray: PixelsPerRay::One,
+                samples: 1,
+                max_depth: 8,
+                cut_off: 0.0,
+            },
+            work: WorkOptions {
+                threads: NonZeroUsize::MIN,
+                schedule: Schedule::Dynamic,
+                packet_rows: NonZeroU32::MIN,
+            },
+            stats: StatsFormat::None,
+        }
+    }
+
+    const SCENE: &str = "v 0 0 -9 resolution 2 3 f 1 1 1 0 0 0 0 0 0 0 0 0 s 0 0 5 1";
+
+    /// A tracer that sees red everywhere.
+    fn red(scene: &Scene) -> Result<Traced, Error> {
+        let pixels = (scene.width * scene.height) as usize;
+        let levels = vec![[255, 0, 0]; pixels];
+        Ok(Traced {
+            picture: Picture::from_levels(scene.width, scene.height, levels).unwrap(),
+            format: "f32".into(),
+            scale: 0,
+            rays: Rays::default(),
+            steps: 0,
+            tests: 0,
+            hits: 0,
+            saturations: 0,
+            octree: Octree {
+                kind: Tree::None,
+                nodes: 0,
+                links: 0,
+                depth: 0,
+                unsplit: 0,
+            },
+            build: Duration::ZERO,
+            render: Duration::ZERO,
+            threads: 1,
+            packets: 1,
+        })
+    }
+
+    #[test]
+    fn what_the_tracer_sees_is_in_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = job(folder.path(), SCENE, "a.png");
+        run(&job, &Interrupt::new(), |scene, _, _, _| red(scene)).unwrap();
+        let written = picture::read(&job.output.path).unwrap();
+        assert_eq!(written.size(), (3, 2));
+        assert_eq!(written.levels(), [[255, 0, 0]; 6]);
+    }
+
+    #[test]
+    fn an_interrupt_while_tracing_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let (job, interrupt) = (job(folder.path(), SCENE, "a.png"), Interrupt::new());
+        let result = run(&job, &interrupt, |scene, _, _, interrupt| {
+            interrupt.request();
+            red(scene)
+        });
+        assert!(matches!(result, Err(Error::Interrupted)));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn nothing_is_traced_for_a_picture_that_cannot_be_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = job(folder.path(), SCENE, "missing/a.png");
+        let result = run(&job, &Interrupt::new(), |_, _, _, _| {
+            unreachable!("traced in vain")
+        });
+        assert!(matches!(result, Err(Error::Write { .. })));
+    }
+
+    #[test]
+    fn a_scene_with_mistakes_is_refused_with_them_drawn() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = job(folder.path(), "v 0 0 -9 blob 1", "a.png");
+        let result = run(&job, &Interrupt::new(), |scene, _, _, _| red(scene));
+        let text = result.unwrap_err().to_string();
+        assert!(text.contains("a.scene:1:10"), "{text}");
+    }
+}

@@ -1,0 +1,306 @@
+//! The command end to end: what it prints, what it writes, and its exit codes.
+
+use snapbox::cmd::{Command, cargo_bin};
+use snapbox::{assert_data_eq, str};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn octray(folder: &Path, line: &str) -> Command {
+    Command::new(cargo_bin!("octray"))
+        .current_dir(folder)
+        .args(line.split_whitespace())
+}
+
+fn ppm(levels: &[[u8; 3]]) -> Vec<u8> {
+    let mut bytes = format!("P6\n{} 1\n255\n", levels.len()).into_bytes();
+    bytes.extend(levels.as_flattened());
+    bytes
+}
+
+/// Three pictures: `a.ppm`, `b.ppm` of the same size, and `wide.ppm`.
+fn pictures() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let write = |name, levels: &[_]| fs::write(folder.path().join(name), ppm(levels)).unwrap();
+    write("a.ppm", &[[0, 0, 0], [10, 10, 10], [100, 100, 100]]);
+    write("b.ppm", &[[0, 1, 0], [12, 10, 10], [100, 100, 90]]);
+    write("wide.ppm", &[[0; 3]; 4]);
+    folder
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+mod diff {
+    use super::*;
+
+    #[test]
+    fn tells_how_far_apart_two_pictures_are() {
+        octray(pictures().path(), "diff a.ppm b.ppm")
+            .assert()
+            .success()
+            .stderr_eq("")
+            .stdout_eq(str![[r#"
+PSNR                37.46 dB
+RMSE                3.4157 levels
+largest difference  10 levels
+beyond 1 level      2 of 3 pixels (66.667 %)
+beyond 8 levels     1 of 3 pixels (33.333 %)
+
+"#]]);
+    }
+
+    #[test]
+    fn equal_pictures_have_an_infinite_ratio_which_is_null_in_json() {
+        let folder = pictures();
+        octray(folder.path(), "diff a.ppm a.ppm --max-rmse 0 --min-psnr 99")
+            .assert()
+            .success()
+            .stdout_eq(str![[r#"
+PSNR                infinite: the pictures are equal
+RMSE                0.0000 levels
+largest difference  0 levels
+beyond 1 level      0 of 3 pixels (0.000 %)
+beyond 8 levels     0 of 3 pixels (0.000 %)
+
+"#]]);
+        octray(folder.path(), "diff a.ppm a.ppm --json")
+            .assert()
+            .success()
+            .stdout_eq(str![[r#"
+{"a":"a.ppm","b":"a.ppm","size":[3,1],"psnr":null,"rmse":0.0,"largest":0,"beyond_1":0,"beyond_8":0,"within_bounds":true}
+
+"#]]);
+    }
+
+    #[test]
+    fn an_exceeded_bound_is_told_after_the_numbers() {
+        octray(
+            pictures().path(),
+            "diff a.ppm b.ppm --json --max-difference 9 --max-beyond-1 60% --max-beyond-8 1",
+        )
+        .assert()
+        .code(1)
+        .stdout_eq(str![[r#"
+{"a":"a.ppm","b":"b.ppm","size":[3,1],"psnr":37.461335712[..],"rmse":3.4156502553[..],"largest":10,"beyond_1":2,"beyond_8":1,"within_bounds":false}
+
+"#]])
+        .stderr_eq(str![[r#"
+error: the largest difference is 10 levels, at most 9 allowed
+error: pixels that differ by more than one level: 2, at most 60 % allowed
+
+"#]]);
+    }
+
+    #[test]
+    fn the_heat_map_is_a_picture_of_the_same_size() {
+        let folder = pictures();
+        for name in ["heat.png", "heat.ppm", "heat.pfm", "heat.ras"] {
+            octray(folder.path(), &format!("diff a.ppm b.ppm -o {name}"))
+                .assert()
+                .success();
+            octray(
+                folder.path(),
+                &format!("diff {name} heat.png --max-difference 0"),
+            )
+            .assert()
+            .success();
+        }
+    }
+
+    #[test]
+    fn pictures_of_different_sizes_are_not_compared() {
+        let folder = pictures();
+        octray(folder.path(), "diff a.ppm wide.ppm -o heat.png")
+            .assert()
+            .code(1)
+            .stdout_eq("")
+            .stderr_eq(str![[r#"
+error: the pictures differ in size: 3x1 and 4x1
+
+"#]]);
+        assert_eq!(names(folder.path()), ["a.ppm", "b.ppm", "wide.ppm"]);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_named_with_the_cause() {
+        let folder = pictures();
+        let cut = &ppm(&[[1; 3]; 9])[..20];
+        fs::write(folder.path().join("cut.ppm"), cut).unwrap();
+        fs::write(folder.path().join("text.png"), "no picture").unwrap();
+        fs::write(folder.path().join("empty.png"), "").unwrap();
+        for (name, cause) in [
+            ("missing.png", "No such file or directory (os error 2)"),
+            ("cut.ppm", "the picture is cut short"),
+            (
+                "text.png",
+                "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
+            ),
+            ("empty.png", "the file is empty"),
+            (".", "Is a directory (os error 21)"),
+        ] {
+            octray(folder.path(), &format!("diff a.ppm {name}"))
+                .assert()
+                .code(1)
+                .stderr_eq(format!("error: cannot read {name}: {cause}\n"));
+        }
+    }
+
+    #[test]
+    fn an_unknown_extension_is_bad_usage_naming_the_known_ones() {
+        octray(pictures().path(), "diff a.ppm b.ppm -o heat.bmp")
+            .assert()
+            .code(2)
+            .stdout_eq("")
+            .stderr_eq(str![[r#"
+error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .ppm, .pfm, .ras
+
+For more information, try '--help'.
+
+"#]]);
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_told() {
+        octray(pictures().path(), "diff a.ppm b.ppm -o no/heat.png")
+            .assert()
+            .code(1)
+            .stderr_eq(str![[r#"
+error: cannot write no/heat.png: No such file or directory (os error 2)
+
+"#]]);
+    }
+}
+
+mod check {
+    use super::*;
+
+    const SCENE: &str = "v 0 0 -9\nl 1 1 1 1\nf 1 1 1 0 0 0 0 0 0 0 0 0\ns 0 0 5 1\n";
+
+    #[test]
+    fn tells_what_is_in_each_scene() {
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("a.scene"), SCENE).unwrap();
+        octray(folder.path(), "check a.scene a.scene")
+            .assert()
+            .success()
+            .stderr_eq("")
+            .stdout_eq(str![[r#"
+a.scene: 1 sphere, 1 surface, 1 light, 512 x 512 pixels
+a.scene: 1 sphere, 1 surface, 1 light, 512 x 512 pixels
+
+"#]]);
+    }
+
+    #[test]
+    fn one_bad_scene_does_not_keep_the_others_from_being_told() {
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("good.scene"), SCENE).unwrap();
+        fs::write(
+            folder.path().join("bad.scene"),
+            format!("{SCENE}ball 1 2 3"),
+        )
+        .unwrap();
+        octray(folder.path(), "check missing.scene bad.scene good.scene")
+            .assert()
+            .code(1)
+            .stdout_eq(str![[r#"
+good.scene: 1 sphere, 1 surface, 1 light, 512 x 512 pixels
+
+"#]])
+            .stderr_eq(str![[r#"
+error: missing.scene: no such file
+
+bad.scene:5:1: error: [..]`ball`
+...
+5 | ball 1 2 3
+...
+
+"#]]);
+    }
+
+    #[test]
+    fn without_a_scene_it_is_bad_usage() {
+        octray(Path::new("."), "check").assert().code(2);
+    }
+}
+
+mod usage {
+    use super::*;
+
+    #[test]
+    fn help_goes_to_standard_output_and_complaints_do_not() {
+        octray(Path::new("."), "--help")
+            .assert()
+            .success()
+            .stderr_eq("");
+        octray(Path::new("."), "").assert().code(2).stdout_eq("");
+        octray(Path::new("."), "paint")
+            .assert()
+            .code(2)
+            .stdout_eq("");
+        octray(Path::new("."), "diff a")
+            .assert()
+            .code(2)
+            .stdout_eq("");
+    }
+
+    #[test]
+    fn the_version_is_told() {
+        let expected = format!("octray {}\n", env!("CARGO_PKG_VERSION"));
+        octray(Path::new("."), "--version")
+            .assert()
+            .success()
+            .stdout_eq(expected);
+    }
+}
+
+#[cfg(unix)]
+mod streams {
+    use super::*;
+    use std::fs::File;
+    use std::process::{Command, Stdio};
+
+    fn diff(folder: &Path) -> Command {
+        let mut command = Command::new(cargo_bin!("octray"));
+        command.current_dir(folder).args(["diff", "a.ppm", "b.ppm"]);
+        command
+    }
+
+    #[test]
+    fn a_reader_that_went_away_is_no_failure() {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = diff(pictures().path())
+            .stdout(writer)
+            .stderr(Stdio::piped())
+            .spawn()
+            .and_then(std::process::Child::wait_with_output)
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        assert_data_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    }
+
+    #[test]
+    fn a_full_standard_output_is_a_failure() {
+        let Ok(full) = File::options().write(true).open("/dev/full") else {
+            return;
+        };
+        let output = diff(pictures().path())
+            .stdout(full)
+            .stderr(Stdio::piped())
+            .spawn()
+            .and_then(std::process::Child::wait_with_output)
+            .unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let expected =
+            "error: cannot write to standard output: No space left on device (os error 28)\n";
+        assert_data_eq!(String::from_utf8(output.stderr).unwrap(), expected);
+    }
+}
