@@ -1,5 +1,6 @@
 //! What can go wrong, and the exit code each failure leads to.
 
+use crate::interrupt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -44,7 +45,7 @@ pub enum Error {
     /// Work that was accepted could not be done, for the reason told.
     #[error("{0}")]
     Failed(String),
-    /// The user asked to stop; exit code 130, as shells have it for Ctrl-C.
+    /// The user asked to stop; exit code [`interrupt::EXIT_CODE`].
     #[error("interrupted")]
     Interrupted,
 }
@@ -70,7 +71,7 @@ impl Error {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Usage(_) => 2,
-            Self::Interrupted => 130,
+            Self::Interrupted => interrupt::EXIT_CODE as u8,
             Self::BrokenPipe => 0,
             _ => 1,
         })

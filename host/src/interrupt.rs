@@ -4,6 +4,9 @@ use crate::error::Error;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// The exit code of a process that was interrupted, as shells have it for Ctrl-C.
+pub const EXIT_CODE: i32 = 130;
+
 /// A flag that long work polls; clones share it.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
@@ -14,15 +17,21 @@ impl Interrupt {
         Self::default()
     }
 
-    /// A flag that Ctrl-C, a termination or a hang-up of the terminal sets. May be called once in a process.
+    /// A flag that Ctrl-C, a termination or a hang-up of the terminal sets; a second one ends the process at
+    /// once, in case it is stuck where nothing polls. May be called once in a process.
     ///
     /// # Errors
     /// [`Error::Failed`] when the system refuses the handler.
     pub fn on_signal() -> Result<Self, Error> {
         let interrupt = Self::new();
         let flag = interrupt.clone();
-        ctrlc::set_handler(move || flag.request())
-            .map_err(|cause| Error::Failed(format!("cannot watch for Ctrl-C: {cause}")))?;
+        ctrlc::set_handler(move || {
+            if flag.requested() {
+                std::process::exit(EXIT_CODE);
+            }
+            flag.request();
+        })
+        .map_err(|cause| Error::Failed(format!("cannot watch for Ctrl-C: {cause}")))?;
         Ok(interrupt)
     }
 

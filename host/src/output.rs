@@ -24,9 +24,10 @@ pub fn write_file(
 ) -> Result<(), Error> {
     let write = || -> io::Result<()> {
         match Sink::open(path)? {
-            Sink::Device(file) => through(file, interrupt, fill).map(drop),
+            Sink::Device(file) => through(file, interrupt, fill),
             Sink::Regular { temporary, target } => {
-                let temporary = through(temporary, interrupt, fill)?;
+                // Not through the temporary file itself: its errors name it.
+                through(temporary.as_file(), interrupt, fill)?;
                 stop_if(interrupt)?;
                 temporary.persist(target).map_err(|failed| failed.error)?;
                 Ok(())
@@ -65,13 +66,11 @@ pub fn write_stdout(
     interrupt: &Interrupt,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Error> {
-    through(io::stdout().lock(), interrupt, fill)
-        .map(drop)
-        .map_err(|source| match source.kind() {
-            _ if interrupt.requested() => Error::Interrupted,
-            io::ErrorKind::BrokenPipe => Error::BrokenPipe,
-            _ => Error::Stdout(source),
-        })
+    through(io::stdout().lock(), interrupt, fill).map_err(|source| match source.kind() {
+        _ if interrupt.requested() => Error::Interrupted,
+        io::ErrorKind::BrokenPipe => Error::BrokenPipe,
+        _ => Error::Stdout(source),
+    })
 }
 
 /// Where the bytes of a file go.
@@ -110,18 +109,14 @@ impl Sink {
 }
 
 /// Let `fill` write into `inner` through a buffer that fails once an interrupt is requested.
-fn through<W: Write>(
-    inner: W,
+fn through(
+    inner: impl Write,
     interrupt: &Interrupt,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<W> {
+) -> io::Result<()> {
     let mut buffer = BufWriter::with_capacity(BUFFER, Polled { inner, interrupt });
     fill(&mut buffer)?;
-    buffer.flush()?;
-    Ok(buffer
-        .into_inner()
-        .map_err(io::IntoInnerError::into_error)?
-        .inner)
+    buffer.flush()
 }
 
 /// A writer that looks for an interrupt before it writes.
