@@ -1,3 +1,28 @@
-//! core
+//! Whitted ray tracing without allocator, generic over its arithmetic.
+//!
+//! The modules, in the order in which data meets them:
+//!
+//! | module | what it holds |
+//! | --- | --- |
+//! | [`scalar`] | the numbers: what the tracer asks of them, floating, approximate and fixed |
+//! | [`vec3`], [`ray`] | vectors, rays, boxes |
+//! | [`shape`] | spheres, cones, boxes, polygons: where a ray meets them, and their surface there |
+//! | [`scene`], [`camera`] | slices of shapes, surfaces and lights; where rays start |
+//! | [`octree`] | which shapes a ray has to be tested against: three trees in lent memory, or none |
+//! | [`packet`] | a picture, its active region, and the rows that one thread renders |
+//! | [`trace`], `shade` | Whitted's recursion on a bounded stack; the light of a surface |
+//! | [`observe`] | who counts rays, steps and tests, at no cost if nobody does |
 #![no_std]
 #![forbid(unsafe_code)]
+
+pub mod camera;
+pub mod observe;
+pub mod octree;
+pub mod packet;
+pub mod ray;
+pub mod scalar;
+pub mod scene;
+mod shade;
+pub mod shape;
+pub mod trace;
+pub mod vec3;

@@ -8,13 +8,20 @@
 //! | [`diagnostic`] | says what is wrong with a file, where, and what was expected |
 //! | [`check`] | the promises a scene keeps, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
+//! | [`mod@generate`] | scenes of any size from a seed |
+//! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
+//! | [`tree`] | octrees of a quantised scene, in memory of their own |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 
 pub mod check;
 pub mod diagnostic;
+pub mod generate;
 pub mod model;
 pub mod parse;
+pub mod quantise;
+pub mod tree;
 pub mod write;
 
+pub use generate::generate;
 pub use parse::{ReadError, parse, read};
 pub use write::write;

@@ -1,0 +1,50 @@
+//! From a place in the picture to a ray.
+
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::vec3::Vec3;
+
+/// How rays leave.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// From one point.
+    #[default]
+    Perspective,
+    /// Side by side.
+    Parallel,
+}
+
+/// A camera. The picture spans −1 … 1 from left to right and from bottom to top.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Camera<S> {
+    /// The eye, or the middle of the plane where parallel rays start.
+    pub origin: Vec3<S>,
+    /// From the eye to the middle of the picture, in the scale of `right` and `up`; parallel: the
+    /// unit direction of all rays.
+    pub forward: Vec3<S>,
+    /// From the middle of the picture to its right border. In perspective the three are scaled
+    /// together so that they fit the format; in parallel this is a length of the scene.
+    pub right: Vec3<S>,
+    /// From the middle of the picture to its upper border.
+    pub up: Vec3<S>,
+    /// How rays leave.
+    pub projection: Projection,
+}
+
+impl<S: Scalar> Camera<S> {
+    /// The ray through (x, y), each in (−1, 1).
+    #[inline(always)]
+    pub fn ray(&self, x: S, y: S) -> Ray<S> {
+        let aside = self.right * x + self.up * y;
+        match self.projection {
+            Projection::Perspective => Ray {
+                origin: self.origin,
+                direction: (self.forward + aside).unit().0,
+            },
+            Projection::Parallel => Ray {
+                origin: self.origin + aside,
+                direction: self.forward,
+            },
+        }
+    }
+}

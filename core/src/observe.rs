@@ -1,0 +1,110 @@
+//! What the tracer tells whoever wants to know: rays by kind, steps, tests.
+
+/// Why a ray is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum RayKind {
+    /// From the camera.
+    Primary,
+    /// From a surface point to a light.
+    Shadow,
+    /// In the mirror direction.
+    Reflected,
+    /// Through a transparent surface.
+    Transmitted,
+}
+
+/// Is told what happens while a picture is traced. All methods are empty by default: with `()`
+/// as the observer nothing of it is left in the machine code.
+pub trait Observer {
+    /// A ray starts.
+    #[inline(always)]
+    fn ray(&mut self, _: RayKind) {}
+    /// A shadow ray met something on its way to the light.
+    #[inline(always)]
+    fn blocked(&mut self) {}
+    /// A ray of the given kind, not a shadow ray, met something.
+    #[inline(always)]
+    fn hit(&mut self, _: RayKind) {}
+    /// A ray came to a node of the octree, leaf or not.
+    #[inline(always)]
+    fn step(&mut self) {}
+    /// A ray was tested against an object.
+    #[inline(always)]
+    fn test(&mut self) {}
+    /// This many rays wait on the stack.
+    #[inline(always)]
+    fn pending(&mut self, _: usize) {}
+}
+
+impl Observer for () {}
+
+/// Counts everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Rays by [`RayKind`].
+    pub rays: [u64; 4],
+    /// Shadow rays that met something.
+    pub blocked: u64,
+    /// Primary, reflected and transmitted rays that met something, by [`RayKind`].
+    pub hits: [u64; 4],
+    /// Octree nodes visited.
+    pub steps: u64,
+    /// Object tests.
+    pub tests: u64,
+    /// The most rays that ever waited on the stack.
+    pub deepest: u64,
+}
+
+impl Counters {
+    /// Rays of one kind.
+    pub const fn rays_of(&self, kind: RayKind) -> u64 {
+        self.rays[kind as usize]
+    }
+
+    /// Rays of all kinds.
+    pub fn all_rays(&self) -> u64 {
+        self.rays.iter().sum()
+    }
+
+    /// Adds another count to this one.
+    pub fn add(&mut self, other: &Self) {
+        for (mine, theirs) in self.rays.iter_mut().zip(other.rays) {
+            *mine += theirs;
+        }
+        for (mine, theirs) in self.hits.iter_mut().zip(other.hits) {
+            *mine += theirs;
+        }
+        self.blocked += other.blocked;
+        self.steps += other.steps;
+        self.tests += other.tests;
+        self.deepest = self.deepest.max(other.deepest);
+    }
+}
+
+impl Observer for Counters {
+    #[inline(always)]
+    fn ray(&mut self, kind: RayKind) {
+        self.rays[kind as usize] += 1;
+    }
+    #[inline(always)]
+    fn blocked(&mut self) {
+        self.blocked += 1;
+    }
+    #[inline(always)]
+    fn hit(&mut self, kind: RayKind) {
+        self.hits[kind as usize] += 1;
+    }
+    #[inline(always)]
+    fn step(&mut self) {
+        self.steps += 1;
+    }
+    #[inline(always)]
+    fn test(&mut self) {
+        self.tests += 1;
+    }
+    #[inline(always)]
+    fn pending(&mut self, count: usize) {
+        self.deepest = self.deepest.max(count as u64);
+    }
+}

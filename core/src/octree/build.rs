@@ -1,0 +1,148 @@
+//! What the builders of all trees share: their options, their limits, what they report, and the
+//! splitting of a range of boxes by surface area.
+
+use super::Plane;
+use crate::ray::Bounds;
+use crate::scalar::Scalar;
+use crate::vec3::{Axis, Vec3, vec3};
+
+/// No tree is deeper than this, whatever the options say: the walk's stack is sized for it.
+pub(super) const MAX_DEPTH: u32 = 24;
+
+/// How far a tree is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Inner nodes above any leaf, at most; no more than [`MAX_DEPTH`] counts.
+    pub depth: u32,
+    /// A node with no more objects than this is a leaf; at least 1.
+    pub leaf_size: u32,
+}
+
+/// What was built.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Inner nodes.
+    pub inner: u32,
+    /// Leaves, empty ones included where the tree has such.
+    pub leaves: u32,
+    /// Links from leaves to objects.
+    pub links: u32,
+    /// The most inner nodes above a leaf.
+    pub depth: u32,
+    /// Leaves that hold more than the leaf size because the arena was full.
+    pub unsplit: u32,
+}
+
+/// The lent memory is too small even for an unsplit tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuildError {
+    /// Nodes needed at least.
+    pub nodes: usize,
+    /// Links needed at least.
+    pub links: usize,
+}
+
+/// The box of nothing: any union with it gives the other.
+pub(super) fn nothing<P: Plane>() -> Bounds<P> {
+    Bounds {
+        low: vec3(P::MAX, P::MAX, P::MAX),
+        high: vec3(P::MIN, P::MIN, P::MIN),
+    }
+}
+
+/// The smallest box around two.
+pub(super) fn union<P: Plane>(a: Bounds<P>, b: Bounds<P>) -> Bounds<P> {
+    let mut both = a;
+    for axis in Axis::ALL {
+        both.low[axis] = a.low[axis].lower(b.low[axis]);
+        both.high[axis] = a.high[axis].upper(b.high[axis]);
+    }
+    both
+}
+
+/// A shape's box as planes, exactly.
+pub(super) fn planes<S: Scalar>(bounds: Bounds<S>) -> Bounds<S::Plane> {
+    Bounds {
+        low: bounds.low.map(S::plane),
+        high: bounds.high.map(S::plane),
+    }
+}
+
+/// The sides of a box, none of them negative.
+pub(super) fn sides<P: Plane>(bounds: &Bounds<P>) -> [P; 3] {
+    Axis::ALL.map(|a| {
+        if bounds.low[a] < bounds.high[a] {
+            bounds.high[a].minus(bounds.low[a])
+        } else {
+            P::ZERO
+        }
+    })
+}
+
+/// The middle of a box.
+pub(super) fn middle<P: Plane>(bounds: &Bounds<P>) -> Vec3<P> {
+    let [x, y, z] = Axis::ALL.map(|a| bounds.low[a].middle(bounds.high[a]));
+    vec3(x, y, z)
+}
+
+const BINS: usize = 16;
+
+/// Parts a range of boxes in two by the surface area heuristic (Wald, "On fast Construction of
+/// SAH-based Bounding Volume Hierarchies", 2007): the best of 15 planes on each axis between
+/// middles. Returns how many come first; the boxes and what goes with them are reordered. Boxes
+/// whose middles coincide are parted half and half.
+pub(super) fn part<P: Plane, T: Copy>(boxes: &mut [Bounds<P>], things: &mut [T]) -> usize {
+    let mut middles = nothing();
+    for bounds in boxes.iter() {
+        let m = middle(bounds);
+        middles = union(middles, Bounds { low: m, high: m });
+    }
+    let mut best: Option<(P::Area, Axis, u32)> = None;
+    for axis in Axis::ALL {
+        let (low, high) = (middles.low[axis], middles.high[axis]);
+        if low >= high {
+            continue;
+        }
+        let mut counts = [0u32; BINS];
+        let mut unions = [nothing::<P>(); BINS];
+        for bounds in boxes.iter() {
+            let bin = middle(bounds)[axis].bin(low, high, BINS as u32) as usize;
+            counts[bin] += 1;
+            unions[bin] = union(unions[bin], *bounds);
+        }
+        // Costs of all that lies above each plane, from the top down; then those below, upwards.
+        let mut above = [P::NO_AREA; BINS];
+        let (mut count, mut whole) = (0, nothing());
+        for bin in (1..BINS).rev() {
+            count += counts[bin];
+            whole = union(whole, unions[bin]);
+            above[bin] = P::times(P::half_area(sides(&whole)), count);
+        }
+        let total = boxes.len() as u32;
+        let (mut count, mut whole) = (0, nothing());
+        for bin in 1..BINS {
+            count += counts[bin - 1];
+            whole = union(whole, unions[bin - 1]);
+            if count == 0 || count == total {
+                continue;
+            }
+            let cost = P::sum(P::times(P::half_area(sides(&whole)), count), above[bin]);
+            if best.is_none_or(|(least, ..)| cost < least) {
+                best = Some((cost, axis, bin as u32));
+            }
+        }
+    }
+    let Some((_, axis, plane)) = best else {
+        return boxes.len() / 2;
+    };
+    let (low, high) = (middles.low[axis], middles.high[axis]);
+    let mut first = 0;
+    for i in 0..boxes.len() {
+        if middle(&boxes[i])[axis].bin(low, high, BINS as u32) < plane {
+            boxes.swap(first, i);
+            things.swap(first, i);
+            first += 1;
+        }
+    }
+    first
+}

@@ -1,0 +1,73 @@
+//! What every tree does with the objects it comes to.
+
+use super::Hit;
+use crate::observe::Observer;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::shape::ObjectRef;
+
+/// A search for the first object a ray meets, or with `ANY` for any object nearer than the limit.
+pub(super) struct Search<'a, S, O, const ANY: bool> {
+    pub(super) scene: &'a Scene<'a, S>,
+    pub(super) ray: &'a Ray<S>,
+    /// Nothing beyond this distance matters any more.
+    pub(super) limit: S,
+    pub(super) found: Option<ObjectRef>,
+    pub(super) observer: &'a mut O,
+}
+
+impl<'a, S: Scalar, O: Observer, const ANY: bool> Search<'a, S, O, ANY> {
+    #[inline(always)]
+    pub(super) fn new(
+        scene: &'a Scene<'a, S>,
+        ray: &'a Ray<S>,
+        limit: S,
+        observer: &'a mut O,
+    ) -> Self {
+        Self {
+            scene,
+            ray,
+            limit,
+            found: None,
+            observer,
+        }
+    }
+
+    /// Tests the objects of a list up to the marked one. True if the search is over.
+    #[inline(always)]
+    pub(super) fn list(&mut self, links: &[ObjectRef]) -> bool {
+        for &object in links {
+            self.observer.test();
+            if let Some(t) = self.scene.shapes.hit(object, self.ray, self.limit) {
+                if ANY {
+                    self.found = Some(object);
+                    return true;
+                }
+                if t < self.limit || self.precedes(object) {
+                    self.limit = t;
+                    self.found = Some(object);
+                }
+            }
+            if object.is_last() {
+                break;
+            }
+        }
+        false
+    }
+
+    /// Whether an object at the very distance of the one found comes before it in the scene file.
+    #[cold]
+    fn precedes(&self, object: ObjectRef) -> bool {
+        let id = |object| self.scene.attributes_of(object).id;
+        self.found.is_none_or(|found| id(object) < id(found))
+    }
+
+    #[inline(always)]
+    pub(super) fn hit(self) -> Option<Hit<S>> {
+        self.found.map(|object| Hit {
+            t: self.limit,
+            object,
+        })
+    }
+}

@@ -1,0 +1,375 @@
+//! The tight tree: up to eight tight boxes per node, every object in exactly one leaf.
+//!
+//! It takes the thesis's cluster box to its end: a node's children are not the octants of a cell
+//! but the groups into which surface area says its objects fall.
+
+use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
+use super::search::Search;
+use super::{Accelerator, Hit, Plane, STACK, Slope, Stack};
+use crate::observe::Observer;
+use crate::ray::{Bounds, Ray};
+use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::shape::{ObjectRef, Shapes};
+use crate::vec3::{Axis, vec3};
+
+/// How many children a node has.
+const WIDTH: usize = 8;
+
+/// An inner node: the boxes of its children, plane by plane, and what lies in them.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Node<P> {
+    /// Low x, y, z, then high x, y, z of all eight. An empty place has an inverted box.
+    planes: [[P; WIDTH]; 6],
+    /// The children's words: see [`Word`].
+    children: [u32; WIDTH],
+}
+
+/// A child: `LEAF` and the place of its first object in the list of links, or the place of a node.
+struct Word;
+
+impl Word {
+    const LEAF: u32 = 1 << 31;
+}
+
+impl<P: Plane> Node<P> {
+    /// A node without children.
+    pub const EMPTY: Self = Self {
+        planes: [
+            [P::MAX; WIDTH],
+            [P::MAX; WIDTH],
+            [P::MAX; WIDTH],
+            [P::MIN; WIDTH],
+            [P::MIN; WIDTH],
+            [P::MIN; WIDTH],
+        ],
+        children: [0; WIDTH],
+    };
+
+    fn set(&mut self, child: usize, bounds: &Bounds<P>, word: u32) {
+        for (i, axis) in Axis::ALL.into_iter().enumerate() {
+            self.planes[i][child] = bounds.low[axis].below();
+            self.planes[i + 3][child] = bounds.high[axis].above();
+        }
+        self.children[child] = word;
+    }
+}
+
+/// The memory a tree is built in, all of it lent.
+#[derive(Debug)]
+pub struct TightMemory<'a, P> {
+    /// Room for inner nodes; at least one. What does not fit stays unsplit.
+    pub nodes: &'a mut [Node<P>],
+    /// One for each object.
+    pub links: &'a mut [ObjectRef],
+    /// One for each object; free again when the tree is built.
+    pub boxes: &'a mut [Bounds<P>],
+}
+
+/// A finished tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Tight<'a, P> {
+    /// The nodes; the first is the root.
+    pub nodes: &'a [Node<P>],
+    /// The objects, leaf by leaf, the last of each leaf marked.
+    pub links: &'a [ObjectRef],
+}
+
+/// A range of objects that one child will hold.
+#[derive(Clone, Copy)]
+struct Group<P> {
+    start: usize,
+    end: usize,
+    bounds: Bounds<P>,
+}
+
+impl<P: Plane> Group<P> {
+    fn of(start: usize, end: usize, boxes: &[Bounds<P>]) -> Self {
+        let bounds = boxes[start..end]
+            .iter()
+            .fold(build::nothing(), |a, b| build::union(a, *b));
+        Self { start, end, bounds }
+    }
+
+    fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+impl<'a, P: Plane> Tight<'a, P> {
+    /// Builds the tree of all shapes.
+    ///
+    /// # Errors
+    /// If there is not one node, or not a link and a box for each object.
+    pub fn build<S: Scalar<Plane = P>>(
+        shapes: &Shapes<'_, S>,
+        memory: TightMemory<'a, P>,
+        options: Options,
+    ) -> Result<(Self, Summary), BuildError> {
+        let TightMemory {
+            nodes,
+            links,
+            boxes,
+        } = memory;
+        let count = shapes.len();
+        let too_small = BuildError {
+            nodes: 1,
+            links: count,
+        };
+        let links = links.get_mut(..count).ok_or(too_small)?;
+        let boxes = boxes.get_mut(..count).ok_or(too_small)?;
+        *nodes.first_mut().ok_or(too_small)? = Node::EMPTY;
+        for (i, object) in shapes.refs().enumerate() {
+            links[i] = object;
+            boxes[i] = build::planes(shapes.bounds(object));
+        }
+        let mut summary = Summary {
+            links: count as u32,
+            ..Summary::default()
+        };
+        let used = if count == 0 {
+            0
+        } else {
+            grow(nodes, links, boxes, options, &mut summary)
+        };
+        Ok((
+            Self {
+                nodes: &nodes[..used],
+                links,
+            },
+            summary,
+        ))
+    }
+}
+
+/// Splits breadth first. A node that waits holds its range of objects and its depth in the words
+/// of its children, so that no other memory is needed. Returns how many nodes there are.
+fn grow<P: Plane>(
+    nodes: &mut [Node<P>],
+    links: &mut [ObjectRef],
+    boxes: &mut [Bounds<P>],
+    options: Options,
+    summary: &mut Summary,
+) -> usize {
+    let leaf_size = options.leaf_size.max(1) as usize;
+    let deepest = options.depth.clamp(1, MAX_DEPTH);
+    nodes[0].children[..3].copy_from_slice(&[0, links.len() as u32, 1]);
+    let (mut done, mut used) = (0, 1);
+    while done < used {
+        let [start, end, depth, ..] = nodes[done].children;
+        nodes[done] = Node::EMPTY;
+        summary.inner += 1;
+        summary.depth = summary.depth.max(depth);
+        let (groups, count) = split(start as usize, end as usize, links, boxes, leaf_size);
+        for (child, group) in groups[..count].iter().enumerate() {
+            let fits = group.len() <= leaf_size;
+            let word = if !fits && used < nodes.len() && depth < deepest {
+                nodes[used] = Node::EMPTY;
+                let range = [group.start as u32, group.end as u32, depth + 1];
+                nodes[used].children[..3].copy_from_slice(&range);
+                used += 1;
+                used as u32 - 1
+            } else {
+                summary.leaves += 1;
+                summary.unsplit += u32::from(!fits && depth < deepest);
+                links[group.end - 1] = links[group.end - 1].marked_last(true);
+                Word::LEAF | group.start as u32
+            };
+            nodes[done].set(child, &group.bounds, word);
+        }
+        done += 1;
+    }
+    used
+}
+
+/// Parts a range of objects into up to eight groups: the one of the largest surface is parted
+/// again and again, until each fits a leaf or there are eight.
+fn split<P: Plane>(
+    start: usize,
+    end: usize,
+    links: &mut [ObjectRef],
+    boxes: &mut [Bounds<P>],
+    leaf_size: usize,
+) -> ([Group<P>; WIDTH], usize) {
+    let mut groups = [Group::of(start, end, boxes); WIDTH];
+    let mut count = 1;
+    while count < WIDTH {
+        let mut largest: Option<(P::Area, usize)> = None;
+        for (i, group) in groups[..count].iter().enumerate() {
+            let area = P::half_area(build::sides(&group.bounds));
+            if group.len() > leaf_size && largest.is_none_or(|(a, _)| area > a) {
+                largest = Some((area, i));
+            }
+        }
+        let Some((_, i)) = largest else { break };
+        let Group { start, end, .. } = groups[i];
+        let middle = start + build::part(&mut boxes[start..end], &mut links[start..end]);
+        groups[i] = Group::of(start, middle, boxes);
+        groups[count] = Group::of(middle, end, boxes);
+        count += 1;
+    }
+    (groups, count)
+}
+
+/// The ray as the walk wants it.
+struct Walk<P: Plane> {
+    origin: [P; 3],
+    slope: [Slope<P>; 3],
+    /// Which planes of a node are met first and last on each axis.
+    near: [usize; 3],
+    far: [usize; 3],
+}
+
+impl<P: Plane> Walk<P> {
+    #[inline(always)]
+    fn new<S: Scalar<Plane = P>>(ray: &Ray<S>) -> Self {
+        let origin = ray.origin.to_array().map(S::plane);
+        let slope = ray.direction.to_array().map(S::slope);
+        let pick = |flip: bool| {
+            [0, 1, 2].map(|i: usize| if slope[i].negative == flip { i } else { i + 3 })
+        };
+        Self {
+            origin,
+            near: pick(false),
+            far: pick(true),
+            slope,
+        }
+    }
+
+    /// The distance at which each of the eight boxes is entered, and whether it is met at all
+    /// between 0 and `limit`. Plain loops over all eight, so that they become vector code.
+    #[inline(always)]
+    fn meet(&self, node: &Node<P>, limit: P) -> ([P; WIDTH], [bool; WIDTH]) {
+        let mut entry = [P::ZERO; WIDTH];
+        let mut exit = [limit; WIDTH];
+        for i in 0..3 {
+            let near = &node.planes[self.near[i]];
+            let far = &node.planes[self.far[i]];
+            for k in 0..WIDTH {
+                let a = near[k].distance(self.origin[i], self.slope[i].near);
+                let b = far[k].distance(self.origin[i], self.slope[i].far);
+                entry[k] = a.upper(entry[k]);
+                exit[k] = b.lower(exit[k]);
+            }
+        }
+        let mut met = [false; WIDTH];
+        for k in 0..WIDTH {
+            met[k] = entry[k] <= exit[k];
+        }
+        (entry, met)
+    }
+}
+
+impl<P: Plane> Tight<'_, P> {
+    /// Children are visited in the order in which the ray enters them; a search for any hit takes
+    /// them as they come.
+    #[inline(always)]
+    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool>(
+        &self,
+        search: &mut Search<'_, S, O, ANY>,
+        stack: &mut Stack<P>,
+    ) {
+        let Some(mut node) = self.nodes.first() else {
+            return;
+        };
+        let walk = Walk::new(search.ray);
+        let mut waiting = 0;
+        loop {
+            search.observer.step();
+            let (entry, met) = walk.meet(node, search.limit.plane());
+            let base = waiting;
+            for k in 0..WIDTH {
+                if met[k] && waiting < STACK {
+                    // Insertion keeps the nearest on top.
+                    let item = (node.children[k], entry[k]);
+                    let mut place = waiting;
+                    if !ANY {
+                        while place > base && stack.0[place - 1].1 < item.1 {
+                            stack.0[place] = stack.0[place - 1];
+                            place -= 1;
+                        }
+                    }
+                    stack.0[place] = item;
+                    waiting += 1;
+                }
+            }
+            // Leaves are emptied on the spot; the next inner node within the limit goes on.
+            node = loop {
+                if waiting == 0 {
+                    return;
+                }
+                waiting -= 1;
+                let (word, entry) = stack.0[waiting];
+                if !ANY && entry > search.limit.plane() {
+                    continue;
+                }
+                if word & Word::LEAF == 0 {
+                    match self.nodes.get(word as usize) {
+                        Some(node) => break node,
+                        None => continue,
+                    }
+                }
+                let start = (word & !Word::LEAF) as usize;
+                if search.list(self.links.get(start..).unwrap_or(&[])) {
+                    return;
+                }
+            };
+        }
+    }
+}
+
+impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
+    #[inline(always)]
+    fn nearest<O: Observer>(
+        &self,
+        scene: &Scene<'_, S>,
+        ray: &Ray<S>,
+        stack: &mut Stack<S::Plane>,
+        observer: &mut O,
+    ) -> Option<Hit<S>> {
+        let mut search = Search::<_, _, false>::new(scene, ray, S::MAX, observer);
+        self.walk(&mut search, stack);
+        search.hit()
+    }
+
+    #[inline(always)]
+    fn any_hit<O: Observer>(
+        &self,
+        scene: &Scene<'_, S>,
+        ray: &Ray<S>,
+        limit: S,
+        stack: &mut Stack<S::Plane>,
+        observer: &mut O,
+    ) -> Option<ObjectRef> {
+        let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);
+        self.walk(&mut search, stack);
+        search.found
+    }
+}
+
+impl<P: Plane> Tight<'_, P> {
+    /// The box around everything; inverted if there is nothing.
+    pub fn bounds(&self) -> Bounds<P> {
+        let mut all = build::nothing();
+        if let Some(node) = self.nodes.first() {
+            for k in 0..WIDTH {
+                let corner = |first: usize| {
+                    vec3(
+                        node.planes[first][k],
+                        node.planes[first + 1][k],
+                        node.planes[first + 2][k],
+                    )
+                };
+                all = build::union(
+                    all,
+                    Bounds {
+                        low: corner(0),
+                        high: corner(3),
+                    },
+                );
+            }
+        }
+        all
+    }
+}

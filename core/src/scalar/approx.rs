@@ -1,0 +1,215 @@
+//! `f32` without division or square root: micromath's bit tricks, sharpened by Newton steps.
+//!
+//! Worst relative error of the tricks alone: 1/x 12.5 %, 1/√x 3.4 %. A Newton step squares the
+//! error (times 1 for 1/x, times 1.5 for 1/√x): 1.6 % and 0.18 % with one, 2.4e-4 and 5e-6 with two.
+
+use super::float::power_f32;
+use super::{Exponent, Quantize, Scalar};
+use crate::octree::Slope;
+use core::cmp::Ordering;
+use core::ops::{Add, Mul, Neg, Sub};
+use micromath::F32Ext;
+
+/// An `f32` whose reciprocal and reciprocal root are approximate, with `NEWTON` refining steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(transparent)]
+pub struct Approx<const NEWTON: u32>(pub f32);
+
+impl<const N: u32> Approx<N> {
+    #[inline(always)]
+    fn rsqrt(x: f32) -> f32 {
+        let mut y = x.invsqrt();
+        for _ in 0..N {
+            y = y * (1.5 - 0.5 * x * y * y);
+        }
+        y
+    }
+
+    #[inline(always)]
+    fn inverse(x: f32) -> f32 {
+        let mut y = F32Ext::inv(x);
+        for _ in 0..N {
+            y = y * (2.0 - x * y);
+        }
+        y
+    }
+}
+
+impl<const N: u32> PartialOrd for Approx<N> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
+impl<const N: u32> Add for Approx<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl<const N: u32> Sub for Approx<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl<const N: u32> Mul for Approx<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+}
+
+impl<const N: u32> Neg for Approx<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<const N: u32> Scalar for Approx<N> {
+    const ZERO: Self = Self(0.0);
+    const ONE: Self = Self(1.0);
+    const MAX: Self = Self(f32::MAX);
+
+    type Wide = Self;
+
+    #[inline(always)]
+    fn product(a: Self, b: Self) -> Self {
+        a * b
+    }
+
+    #[inline(always)]
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+
+    #[inline(always)]
+    fn sqrt_wide(wide: Self) -> Self {
+        // Below the smallest normal number the bit trick is meaningless.
+        if wide.0 >= f32::MIN_POSITIVE {
+            Self(wide.0 * Self::rsqrt(wide.0))
+        } else {
+            Self(0.0)
+        }
+    }
+
+    type Reciprocal = f32;
+
+    #[inline(always)]
+    fn reciprocal(self) -> f32 {
+        // Outside this range the trick's exponent arithmetic wraps.
+        let size = self.0.abs();
+        if size < 1e-37 {
+            return f32::MAX.copysign(self.0);
+        }
+        if size > 1e37 {
+            return 0.0;
+        }
+        Self::inverse(self.0)
+    }
+
+    #[inline(always)]
+    fn scaled(self, reciprocal: f32) -> Self {
+        Self((self.0 * reciprocal).clamp(f32::MIN, f32::MAX))
+    }
+
+    #[inline(always)]
+    fn whole_reciprocal(n: u32) -> f32 {
+        1.0 / n as f32
+    }
+
+    #[inline(always)]
+    fn ratio(numerator: i32, n: f32) -> Self {
+        Self(numerator as f32 * n)
+    }
+
+    #[inline(always)]
+    fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
+        let square = v[0].0 * v[0].0 + v[1].0 * v[1].0 + v[2].0 * v[2].0;
+        if square >= f32::MIN_POSITIVE {
+            let inverse = Self(Self::rsqrt(square));
+            (v.map(|c| c * inverse), Self(square) * inverse)
+        } else {
+            (v, Self(0.0))
+        }
+    }
+
+    #[inline(always)]
+    fn power(self, exponent: Exponent<Self>) -> Self {
+        let exponent = Exponent {
+            whole: exponent.whole,
+            fraction: exponent.fraction.0,
+        };
+        Self(power_f32(self.0, exponent))
+    }
+
+    #[inline(always)]
+    fn to_local(self, _: i8) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn from_local(self, _: i8) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn surface_error(position: Self, reach: Self) -> Self {
+        let curved = match N {
+            0 => 1.0 / 16.0,
+            1 => 1.0 / 256.0,
+            _ => 1.0 / 65_536.0,
+        };
+        Self(position.0 * (1.0 / 524_288.0) + reach.0 * curved)
+    }
+
+    #[inline(always)]
+    fn level(self) -> u8 {
+        self.0.level()
+    }
+
+    #[inline(always)]
+    fn accumulate(self, light: Self) -> Self {
+        self + light
+    }
+
+    type Plane = f32;
+
+    #[inline(always)]
+    fn plane(self) -> f32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn from_plane(plane: f32) -> Self {
+        Self(plane)
+    }
+
+    #[inline(always)]
+    fn slope(self) -> Slope<f32> {
+        Slope::<f32>::of(self.0)
+    }
+}
+
+impl<const N: u32> Quantize for Approx<N> {
+    const NAME: &'static str = ["approx0", "approx1", "approx2"][N as usize];
+    const FRACTION_BITS: Option<u32> = None;
+    const SLACK: f64 = [1.0 / 64.0, 1.0 / 512.0, 1.0 / 65_536.0][N as usize];
+    const SOUND: bool = N >= 2;
+
+    fn from_f64(x: f64) -> Self {
+        Self(x as f32)
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self.0)
+    }
+}

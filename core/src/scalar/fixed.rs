@@ -1,0 +1,346 @@
+//! 32-bit fixed point with 64-bit products, in integer arithmetic alone, without division.
+//!
+//! Names carry the scaling: `x_q31` is an integer that stands for x · 2³¹.
+
+mod power;
+mod root;
+mod wide;
+
+pub use wide::Fixed64;
+
+use super::{Exponent, Quantize, Scalar};
+use crate::octree::Slope;
+use core::ops::{Add, Mul, Neg, Sub};
+use root::{reciprocal_q30, rsqrt_q30};
+
+/// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28.
+///
+/// `+`, `-` and `*` need no saturation where the scene's bounds prove that nothing overflows, as
+/// they do for every scene that a planner accepted. With `CHECKED` they saturate all the same, and
+/// each saturation is counted in [`saturations`]; without, they wrap, in fewer instructions. Both
+/// give the same bits as long as the count stays 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd)]
+#[repr(transparent)]
+pub struct Fixed<const F: u32, const CHECKED: bool>(i32);
+
+/// The saturations of all checked fixed-point operations of this process since the last
+/// [`reset_saturations`].
+pub fn saturations() -> u32 {
+    count::COUNT.load(core::sync::atomic::Ordering::Relaxed)
+}
+
+/// Starts counting saturations anew.
+pub fn reset_saturations() {
+    count::COUNT.store(0, core::sync::atomic::Ordering::Relaxed);
+}
+
+mod count {
+    use core::sync::atomic::{AtomicU32, Ordering};
+
+    pub(super) static COUNT: AtomicU32 = AtomicU32::new(0);
+
+    /// Counts one saturation; on cores without atomic addition two threads may count one less.
+    #[cold]
+    pub(super) fn saturated() {
+        #[cfg(target_has_atomic = "32")]
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        #[cfg(not(target_has_atomic = "32"))]
+        COUNT.store(
+            COUNT.load(Ordering::Relaxed).wrapping_add(1),
+            Ordering::Relaxed,
+        );
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Fixed<F, CHECKED> {
+    /// The number with this bit pattern: `raw` · 2⁻ᶠ.
+    #[inline(always)]
+    pub const fn from_bits(raw: i32) -> Self {
+        Self(raw)
+    }
+
+    /// The bit pattern: the number times 2ᶠ.
+    #[inline(always)]
+    pub const fn to_bits(self) -> i32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn fit(raw: i64) -> Self {
+        if CHECKED && raw != i64::from(raw as i32) {
+            count::saturated();
+            return Self(if raw < 0 { -i32::MAX } else { i32::MAX });
+        }
+        Self(raw as i32)
+    }
+}
+
+/// Twice `F` bits behind the point; wraps beyond 64 bits.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
+pub struct Product(i64);
+
+impl Add for Product {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+}
+
+impl Sub for Product {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.wrapping_sub(other.0))
+    }
+}
+
+/// 1/x as a signed mantissa of 31 bits and a right shift: a/x = a · mantissa / 2^shift.
+#[derive(Clone, Copy, Debug)]
+pub struct Reciprocal {
+    /// In [2³⁰, 2³¹), with the sign of x.
+    mantissa: i32,
+    /// 0 to 62.
+    shift: u8,
+}
+
+impl Reciprocal {
+    /// Of `raw` · 2⁻ᶠ, such that a raw number times it is a raw number again.
+    #[inline(always)]
+    fn new(raw: i32, fraction_bits: u32) -> Self {
+        let size = raw.unsigned_abs();
+        if size == 0 {
+            return Self {
+                mantissa: 1 << 30,
+                shift: 0,
+            };
+        }
+        let zeros = size.leading_zeros();
+        let mantissa = reciprocal_q30(size << zeros) as i32;
+        Self {
+            mantissa: if raw < 0 { -mantissa } else { mantissa },
+            shift: (62 - fraction_bits - zeros) as u8,
+        }
+    }
+
+    /// `a` / x, to nearest, saturating.
+    #[inline(always)]
+    fn divide(self, a: i32) -> i32 {
+        let product = i64::from(a) * i64::from(self.mantissa);
+        let half = (1i64 << (self.shift & 63)) >> 1;
+        saturate((product + half) >> (self.shift & 63))
+    }
+}
+
+#[inline(always)]
+fn saturate(raw: i64) -> i32 {
+    if raw == i64::from(raw as i32) {
+        raw as i32
+    } else if raw < 0 {
+        -i32::MAX
+    } else {
+        i32::MAX
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Add for Fixed<F, CHECKED> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        if CHECKED {
+            Self::fit(i64::from(self.0) + i64::from(other.0))
+        } else {
+            Self(self.0.wrapping_add(other.0))
+        }
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Sub for Fixed<F, CHECKED> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        if CHECKED {
+            Self::fit(i64::from(self.0) - i64::from(other.0))
+        } else {
+            Self(self.0.wrapping_sub(other.0))
+        }
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Mul for Fixed<F, CHECKED> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self::narrow(Self::product(self, other))
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Neg for Fixed<F, CHECKED> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.wrapping_neg())
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
+    const ZERO: Self = Self(0);
+    const ONE: Self = Self(1 << F);
+    const MAX: Self = Self(i32::MAX);
+
+    type Wide = Product;
+
+    #[inline(always)]
+    fn product(a: Self, b: Self) -> Product {
+        Product(i64::from(a.0) * i64::from(b.0))
+    }
+
+    #[inline(always)]
+    fn narrow(wide: Product) -> Self {
+        Self::fit(wide.0.wrapping_add(1 << (F - 1)) >> F)
+    }
+
+    #[inline(always)]
+    fn sqrt_wide(wide: Product) -> Self {
+        if wide.0 <= 0 {
+            return Self(0);
+        }
+        let zeros = wide.0.leading_zeros() & !1;
+        let x_q32 = ((wide.0 << zeros) as u64 >> 32) as u32;
+        let root_q32 = (u64::from(x_q32) * u64::from(rsqrt_q30(x_q32)) + (1 << 29)) >> 30;
+        Self(saturate((root_q32 >> (zeros / 2)) as i64))
+    }
+
+    type Reciprocal = Reciprocal;
+
+    #[inline(always)]
+    fn reciprocal(self) -> Reciprocal {
+        Reciprocal::new(self.0, F)
+    }
+
+    #[inline(always)]
+    fn scaled(self, reciprocal: Reciprocal) -> Self {
+        Self(reciprocal.divide(self.0))
+    }
+
+    #[inline(always)]
+    fn whole_reciprocal(n: u32) -> Reciprocal {
+        // A quotient of two numbers of the same scaling does not depend on the scaling.
+        Reciprocal::new(n as i32, F)
+    }
+
+    #[inline(always)]
+    fn ratio(numerator: i32, n: Reciprocal) -> Self {
+        Self(n.divide(numerator))
+    }
+
+    #[inline(always)]
+    fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
+        let size = v[0].0.unsigned_abs() | v[1].0.unsigned_abs() | v[2].0.unsigned_abs();
+        if size == 0 {
+            return (v, Self(0));
+        }
+        // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
+        let up = size.leading_zeros().saturating_sub(1);
+        let square_of = |c: i32| i64::from(c).unsigned_abs() * i64::from(c).unsigned_abs();
+        let [x, y, z] = v.map(|c| c.0 << up);
+        let square = square_of(x)
+            .wrapping_add(square_of(y))
+            .wrapping_add(square_of(z));
+        let zeros = square.leading_zeros() & !1;
+        let x_q32 = ((square << (zeros & 63)) >> 32) as u32;
+        let inverse_q30 = rsqrt_q30(x_q32);
+        let shift = 62 - F - zeros / 2;
+        let half = 1i64 << (shift - 1);
+        let unit = [x, y, z].map(|c| {
+            Self(((i64::from(c) * i64::from(inverse_q30)).wrapping_add(half) >> shift) as i32)
+        });
+        let length_q32 = (u64::from(x_q32) * u64::from(inverse_q30)) >> 30;
+        let length = length_q32 >> (up + zeros / 2);
+        (unit, Self(saturate(length as i64)))
+    }
+
+    #[inline(always)]
+    fn power(self, exponent: Exponent<Self>) -> Self {
+        Self(power::power(self.0, F, exponent.whole, exponent.fraction.0))
+    }
+
+    #[inline(always)]
+    fn to_local(self, exponent: i8) -> Self {
+        if exponent >= 0 {
+            Self(self.0 << (exponent & 31))
+        } else {
+            Self(self.0 >> (-exponent & 31))
+        }
+    }
+
+    #[inline(always)]
+    fn from_local(self, exponent: i8) -> Self {
+        if exponent >= 0 {
+            Self(self.0 >> (exponent & 31))
+        } else {
+            Self(saturate(i64::from(self.0) << (-exponent & 31)))
+        }
+    }
+
+    #[inline(always)]
+    fn surface_error(_: Self, reach: Self) -> Self {
+        // Rounding is absolute here, but for a curved shape's normal, which has F bits.
+        Self((reach.0 >> (F - 2)).wrapping_add(8))
+    }
+
+    #[inline(always)]
+    fn level(self) -> u8 {
+        let c = i64::from(self.0.clamp(0, 1 << F));
+        ((c * 255 + (1 << (F - 1))) >> F) as u8
+    }
+
+    #[inline(always)]
+    fn accumulate(self, light: Self) -> Self {
+        (self + light).min(Self::ONE)
+    }
+
+    type Plane = i32;
+
+    #[inline(always)]
+    fn plane(self) -> i32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn from_plane(plane: i32) -> Self {
+        Self(plane)
+    }
+
+    #[inline(always)]
+    fn slope(self) -> Slope<i32> {
+        let Reciprocal { mantissa, shift } = Reciprocal::new(self.0, F);
+        Slope::<i32>::new(self.0 < 0, mantissa, shift)
+    }
+}
+
+impl<const F: u32, const CHECKED: bool> Quantize for Fixed<F, CHECKED> {
+    const NAME: &'static str = match F {
+        8 => "i24f8",
+        12 => "i20f12",
+        16 => "i16f16",
+        20 => "i12f20",
+        24 => "i8f24",
+        28 => "i4f28",
+        _ => "fixed",
+    };
+    const FRACTION_BITS: Option<u32> = Some(F);
+    // A direction is rounded to F bits: over the scene's diagonal that is this share of it.
+    const SLACK: f64 = 4.0 / (1u64 << F) as f64;
+    const SOUND: bool = F >= 16;
+
+    fn from_f64(x: f64) -> Self {
+        // `as` saturates and makes NaN 0; the most negative value has no opposite.
+        let scaled = x * (1u64 << F) as f64;
+        Self((libm::floor(scaled + 0.5) as i32).max(-i32::MAX))
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self.0) / (1u64 << F) as f64
+    }
+}

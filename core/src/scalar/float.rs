@@ -1,0 +1,226 @@
+//! `f32` and `f64`: hardware or software floating point, with libm for the roots.
+
+use super::{Exponent, Quantize, Scalar};
+use crate::octree::Slope;
+
+/// One definition of every operation for both widths.
+macro_rules! float {
+    ($t:ident, $sqrt:path, $power:path, position: $p:expr, reach: $r:expr) => {
+        impl Scalar for $t {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const MAX: Self = $t::MAX;
+
+            type Wide = Self;
+
+            #[inline(always)]
+            fn product(a: Self, b: Self) -> Self {
+                a * b
+            }
+
+            #[inline(always)]
+            fn narrow(wide: Self) -> Self {
+                wide
+            }
+
+            #[inline(always)]
+            fn sqrt_wide(wide: Self) -> Self {
+                if wide > 0.0 { $sqrt(wide) } else { 0.0 }
+            }
+
+            type Reciprocal = Self;
+
+            #[inline(always)]
+            fn reciprocal(self) -> Self {
+                // Not below the smallest normal number, whose reciprocal would be infinite.
+                if self.abs() >= $t::MIN_POSITIVE {
+                    1.0 / self
+                } else {
+                    $t::MAX.copysign(self)
+                }
+            }
+
+            #[inline(always)]
+            fn scaled(self, reciprocal: Self) -> Self {
+                self * reciprocal
+            }
+
+            #[inline(always)]
+            fn quotient(self, divisor: Self) -> Self {
+                self / divisor
+            }
+
+            #[inline(always)]
+            fn whole_reciprocal(n: u32) -> Self {
+                1.0 / (n as $t)
+            }
+
+            #[inline(always)]
+            fn ratio(numerator: i32, n: Self) -> Self {
+                numerator as $t * n
+            }
+
+            #[inline(always)]
+            fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
+                let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+                if square > 0.0 {
+                    let length = $sqrt(square);
+                    let inverse = 1.0 / length;
+                    ([v[0] * inverse, v[1] * inverse, v[2] * inverse], length)
+                } else {
+                    (v, 0.0)
+                }
+            }
+
+            #[inline(always)]
+            fn power(self, exponent: Exponent<Self>) -> Self {
+                $power(self, exponent)
+            }
+
+            #[inline(always)]
+            fn to_local(self, _: i8) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn from_local(self, _: i8) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn surface_error(position: Self, reach: Self) -> Self {
+                position * $p + reach * $r
+            }
+
+            #[inline(always)]
+            fn level(self) -> u8 {
+                (self.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+            }
+
+            #[inline(always)]
+            fn accumulate(self, light: Self) -> Self {
+                self + light
+            }
+
+            type Plane = Self;
+
+            #[inline(always)]
+            fn plane(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn from_plane(plane: Self) -> Self {
+                plane
+            }
+
+            #[inline(always)]
+            fn slope(self) -> Slope<Self> {
+                Slope::<Self>::of(self)
+            }
+        }
+    };
+}
+
+float!(f32, libm::sqrtf, power_f32, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
+float!(f64, libm::sqrt, power_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
+
+impl Quantize for f32 {
+    const NAME: &'static str = "f32";
+    const FRACTION_BITS: Option<u32> = None;
+    const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
+    const SOUND: bool = true;
+
+    fn from_f64(x: f64) -> Self {
+        x as f32
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Quantize for f64 {
+    const NAME: &'static str = "f64";
+    const FRACTION_BITS: Option<u32> = None;
+    const SLACK: f64 = 1.0 / (1u64 << 48) as f64;
+    const SOUND: bool = true;
+
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+#[inline(always)]
+fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {
+    libm::pow(x.min(1.0), f64::from(exponent.whole) + exponent.fraction)
+}
+
+/// Repeated squaring for the whole part, then [`root_f32`] for the rest.
+#[inline(always)]
+pub(super) fn power_f32(x: f32, exponent: Exponent<f32>) -> f32 {
+    // A dot product of unit vectors can exceed 1 by rounding.
+    let x = x.min(1.0);
+    let (mut result, mut square, mut rest) = (1.0, x, exponent.whole);
+    while rest != 0 {
+        if rest & 1 != 0 {
+            result *= square;
+        }
+        square *= square;
+        rest >>= 1;
+    }
+    if exponent.fraction > 0.0 {
+        result *= root_f32(x, exponent.fraction);
+    }
+    result
+}
+
+/// x^f for 0 ≤ x ≤ 1 and 0 < f < 1 as 2^(f · log2 x), absolute error below 1e-6: the mantissa's
+/// logarithm and the remaining fraction's exponential by polynomials (near-minimax, on [0, 1]).
+fn root_f32(x: f32, f: f32) -> f32 {
+    if x < f32::MIN_POSITIVE {
+        return 0.0;
+    }
+    let bits = x.to_bits();
+    let exponent = (bits >> 23) as i32 - 127;
+    let z = f32::from_bits(bits & 0x007f_ffff | 0x3f80_0000) - 1.0;
+    let mut log = LOG2[7];
+    for c in LOG2[..7].iter().rev() {
+        log = log * z + c;
+    }
+    let y = f * (exponent as f32 + log * z);
+    // y ≤ 0 up to rounding; split it into a whole number and a fraction in [0, 1).
+    let whole = y as i32 - 1;
+    let g = y - whole as f32;
+    let mut power = EXP2[5];
+    for c in EXP2[..5].iter().rev() {
+        power = power * g + c;
+    }
+    power * f32::from_bits(((whole + 127).max(0) as u32) << 23)
+}
+
+/// log2(1 + z) / z on [0, 1], error below 4e-7.
+const LOG2: [f32; 8] = [
+    1.442_694_8,
+    -0.721_310_7,
+    0.480_073_75,
+    -0.353_454_68,
+    0.256_179_7,
+    -0.155_599_96,
+    0.063_787_594,
+    -0.012_370_642,
+];
+
+/// 2^g on [0, 1], error below 1.1e-7.
+const EXP2: [f32; 6] = [
+    0.999_999_9,
+    0.693_154_6,
+    0.240_140_77,
+    0.055_863_284,
+    0.008_946_214,
+    0.001_895_107_3,
+];

@@ -1,0 +1,237 @@
+//! The five kinds of shape: each says where a ray meets it, what box it lies in, and what its
+//! surface is like at a point.
+//!
+//! A hit counts only if the computed point lies in the shape's own box. That makes a hit, in any
+//! arithmetic however coarse, something that an octree of boxes cannot miss.
+
+mod cone;
+mod cuboid;
+mod polygon;
+mod sphere;
+
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub(crate) use polygon::encloses;
+pub use polygon::{Flat, Patch, Polygon, Triangle};
+pub use sphere::Sphere;
+
+use crate::ray::{Bounds, Ray};
+use crate::scalar::Scalar;
+use crate::vec3::{Vec3, vec3};
+
+/// Which of the arrays of [`Shapes`] an object lies in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Kind {
+    /// [`Shapes::spheres`].
+    Sphere,
+    /// [`Shapes::triangles`].
+    Triangle,
+    /// [`Shapes::polygons`].
+    Polygon,
+    /// [`Shapes::cones`].
+    Cone,
+    /// [`Shapes::cuboids`].
+    Cuboid,
+}
+
+impl Kind {
+    /// All kinds, in the order of their numbers.
+    pub const ALL: [Self; 5] = [
+        Self::Sphere,
+        Self::Triangle,
+        Self::Polygon,
+        Self::Cone,
+        Self::Cuboid,
+    ];
+}
+
+/// One object: its kind and its place in that kind's array, in one word. In a list of links a
+/// mark tells the last one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(transparent)]
+pub struct ObjectRef(u32);
+
+impl ObjectRef {
+    /// The most objects of one kind.
+    pub const MAX_OBJECTS: usize = 1 << 28;
+    const LAST: u32 = 1 << 31;
+
+    /// Object `index` of its kind; `index` below [`ObjectRef::MAX_OBJECTS`].
+    #[inline(always)]
+    pub const fn new(kind: Kind, index: u32) -> Self {
+        Self((kind as u32) << 28 | index & 0x0fff_ffff)
+    }
+
+    /// Its kind.
+    #[inline(always)]
+    pub const fn kind(self) -> Kind {
+        match (self.0 >> 28) & 7 {
+            0 => Kind::Sphere,
+            1 => Kind::Triangle,
+            2 => Kind::Polygon,
+            3 => Kind::Cone,
+            _ => Kind::Cuboid,
+        }
+    }
+
+    /// Its place in its kind's array.
+    #[inline(always)]
+    pub const fn index(self) -> usize {
+        (self.0 & 0x0fff_ffff) as usize
+    }
+
+    /// Whether it is marked as the last of its list.
+    #[inline(always)]
+    pub const fn is_last(self) -> bool {
+        self.0 & Self::LAST != 0
+    }
+
+    /// The same object with or without the mark.
+    #[inline(always)]
+    #[must_use]
+    pub const fn marked_last(self, last: bool) -> Self {
+        Self(self.0 & !Self::LAST | if last { Self::LAST } else { 0 })
+    }
+}
+
+/// All shapes of a scene, by kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Shapes<'a, S> {
+    /// Spheres.
+    pub spheres: &'a [Sphere<S>],
+    /// Polygons of three vertices.
+    pub triangles: &'a [Triangle<S>],
+    /// Polygons of more.
+    pub polygons: &'a [Polygon<S>],
+    /// Truncated cones and cylinders.
+    pub cones: &'a [Cone<S>],
+    /// Boxes.
+    pub cuboids: &'a [Cuboid<S>],
+    /// The vertices of [`Shapes::polygons`], each projected along its polygon's axis.
+    pub corners: &'a [[S; 2]],
+    /// How the normal varies over the triangles and polygons that are patches.
+    pub patches: &'a [Patch<S>],
+    /// The unit normals at the vertices of patches.
+    pub normals: &'a [Vec3<S>],
+    /// How far a hit may lie outside its shape for want of precision; see [`Bounds`].
+    pub slack: S,
+}
+
+/// What a surface is like at the point where a ray meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact<S> {
+    /// The point, refined onto the surface.
+    pub point: Vec3<S>,
+    /// The surface's own unit normal: outward for closed shapes, either way for flat ones.
+    pub outward: Vec3<S>,
+    /// The size of a curved shape, 0 for a flat one; see [`Scalar::surface_error`].
+    pub reach: S,
+    /// Whether the shape has an inside.
+    pub closed: bool,
+}
+
+impl<S: Scalar> Shapes<'_, S> {
+    /// Every object, kind by kind.
+    pub fn refs(&self) -> impl Iterator<Item = ObjectRef> + '_ {
+        Kind::ALL.into_iter().flat_map(|kind| {
+            (0..self.count(kind) as u32).map(move |index| ObjectRef::new(kind, index))
+        })
+    }
+
+    /// How many objects there are.
+    pub fn len(&self) -> usize {
+        Kind::ALL.into_iter().map(|kind| self.count(kind)).sum()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// How many objects of a kind there are.
+    pub const fn count(&self, kind: Kind) -> usize {
+        match kind {
+            Kind::Sphere => self.spheres.len(),
+            Kind::Triangle => self.triangles.len(),
+            Kind::Polygon => self.polygons.len(),
+            Kind::Cone => self.cones.len(),
+            Kind::Cuboid => self.cuboids.len(),
+        }
+    }
+
+    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`.
+    #[inline(always)]
+    pub fn hit(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
+        let i = object.index();
+        match object.kind() {
+            Kind::Sphere => self.spheres.get(i)?.hit(ray, limit, self.slack),
+            Kind::Triangle => self.triangles.get(i)?.hit(ray, limit),
+            Kind::Polygon => self.polygons.get(i)?.hit(ray, limit, self.corners),
+            Kind::Cone => self.cones.get(i)?.hit(ray, limit),
+            Kind::Cuboid => self.cuboids.get(i)?.hit(ray, limit, self.slack),
+        }
+    }
+
+    /// The box that every hit of the object lies in.
+    pub fn bounds(&self, object: ObjectRef) -> Bounds<S> {
+        let i = object.index();
+        let bounds = match object.kind() {
+            Kind::Sphere => self.spheres.get(i).map(|s| s.bounds(self.slack)),
+            Kind::Triangle => self.triangles.get(i).map(Triangle::bounds),
+            Kind::Polygon => self.polygons.get(i).map(|p| p.bounds),
+            Kind::Cone => self.cones.get(i).map(|c| c.bounds),
+            Kind::Cuboid => self.cuboids.get(i).map(|c| c.bounds(self.slack)),
+        };
+        bounds.unwrap_or_default()
+    }
+
+    /// The surface at the point at distance `t` of a ray that meets the object there.
+    #[inline(always)]
+    pub fn contact(&self, object: ObjectRef, ray: &Ray<S>, t: S) -> Contact<S> {
+        let i = object.index();
+        let contact = match object.kind() {
+            Kind::Sphere => self.spheres.get(i).map(|s| s.contact(ray.at(t))),
+            Kind::Triangle => self.triangles.get(i).map(|p| p.plane.contact(ray.at(t))),
+            Kind::Polygon => self.polygons.get(i).map(|p| p.plane.contact(ray.at(t))),
+            Kind::Cone => self.cones.get(i).map(|c| c.contact(ray.at(t))),
+            Kind::Cuboid => self.cuboids.get(i).map(|c| c.contact(ray, t)),
+        };
+        contact.unwrap_or(Contact {
+            point: ray.at(t),
+            outward: -ray.direction,
+            reach: S::ZERO,
+            closed: false,
+        })
+    }
+
+    /// The interpolated unit normal of patch `patch` at a point of `object`.
+    pub fn patch_normal(&self, object: ObjectRef, patch: u32, point: Vec3<S>) -> Option<Vec3<S>> {
+        let patch = self.patches.get(patch as usize)?;
+        match object.kind() {
+            Kind::Triangle => {
+                let triangle = self.triangles.get(object.index())?;
+                patch.normal(
+                    triangle.plane.project(point),
+                    &triangle.corners,
+                    self.normals,
+                )
+            }
+            Kind::Polygon => {
+                let polygon = self.polygons.get(object.index())?;
+                let corners = polygon.corners(self.corners)?;
+                patch.normal(polygon.plane.project(point), corners, self.normals)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A box around `centre` that reaches `reach` in each direction.
+fn around<S: Scalar>(centre: Vec3<S>, reach: S) -> Bounds<S> {
+    let reach = vec3(reach, reach, reach);
+    Bounds {
+        low: centre - reach,
+        high: centre + reach,
+    }
+}

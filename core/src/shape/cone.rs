@@ -1,0 +1,111 @@
+//! The truncated cone, the cylinder included: its side surface, without caps.
+
+use super::Contact;
+use crate::ray::{Bounds, Ray};
+use crate::scalar::Scalar;
+use crate::vec3::Vec3;
+
+/// The side of a truncated cone.
+///
+/// Lengths marked *local* are scaled by [`Scalar::to_local`] with `exponent`, which brings the
+/// radius of the bounding sphere to [½, 1) in fixed point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Cone<S> {
+    /// The middle of the axis.
+    pub centre: Vec3<S>,
+    /// The unit vector from the base to the top.
+    pub axis: Vec3<S>,
+    /// Half the axis's length, local.
+    pub half_length: S,
+    /// The radius in the middle, local.
+    pub mid_radius: S,
+    /// The sine of the angle between axis and side, positive if the cone widens to the top.
+    pub sin: S,
+    /// The cosine of that angle, > 0 (1 for a cylinder).
+    pub cos: S,
+    /// The radius of the bounding sphere around `centre`, with slack.
+    pub reach: S,
+    /// The scale of the local lengths.
+    pub exponent: i8,
+    /// The box that all hits lie in.
+    pub bounds: Bounds<S>,
+}
+
+impl<S: Scalar> Cone<S> {
+    /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale,
+    /// and its smaller root taken as c/q: from a distant origin it would cancel.
+    #[inline(always)]
+    pub(super) fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
+        let d = ray.direction;
+        let to_centre = self.centre - ray.origin;
+        let middle = to_centre.dot(d);
+        let apart = d * middle - to_centre;
+        if apart.dot_wide(apart) > S::product(self.reach, self.reach) {
+            return None;
+        }
+        let w = apart.map(|c| c.to_local(self.exponent));
+
+        // cos · (distance from the axis) = cos · mid_radius + sin · height, at w + t d.
+        let rise = d.dot(self.axis);
+        let height = w.dot(self.axis);
+        let radial = w - self.axis * height;
+        let edge = self.cos * self.mid_radius + self.sin * height;
+        let cos_square = self.cos * self.cos;
+        let a = (self.cos - rise) * (self.cos + rise);
+        let b =
+            S::narrow(S::product(cos_square, d.dot(radial)) - S::product(self.sin * rise, edge));
+        let c = S::narrow(S::product(cos_square, radial.dot(radial)) - S::product(edge, edge));
+        let discriminant = S::product(b, b) - S::product(a, c);
+        if discriminant < S::product(S::ZERO, S::ZERO) {
+            return None;
+        }
+        let root = S::sqrt_wide(discriminant);
+        let q = if b < S::ZERO { root - b } else { -b - root };
+
+        // Every hit lies within the bounding sphere, at |t| ≤ 1 in local scale for fixed point:
+        // compare before dividing.
+        let first = self.root(q, a);
+        let second = self.root(c, q);
+        let (first, second) = match (first, second) {
+            (Some(x), Some(y)) if y < x => (second, first),
+            _ => (first, second),
+        };
+        for t in [first, second].into_iter().flatten() {
+            let h = height + rise * t;
+            let t = middle + t.from_local(self.exponent);
+            if h.abs() <= self.half_length
+                && t > S::ZERO
+                && t <= limit
+                && self.bounds.contains(ray.at(t))
+            {
+                return Some(t);
+            }
+        }
+        None
+    }
+
+    /// The quotient, if it can be within the bounding sphere's diameter.
+    #[inline(always)]
+    fn root(&self, numerator: S, denominator: S) -> Option<S> {
+        let diameter = self.reach.to_local(self.exponent) + self.reach.to_local(self.exponent);
+        let within = S::product(numerator.abs(), S::ONE) <= S::product(denominator.abs(), diameter);
+        (within && denominator != S::ZERO).then(|| numerator.quotient(denominator))
+    }
+
+    /// The point goes back onto the side along the normal.
+    #[inline(always)]
+    pub(super) fn contact(&self, point: Vec3<S>) -> Contact<S> {
+        let w = (point - self.centre).map(|c| c.to_local(self.exponent));
+        let height = w.dot(self.axis);
+        let (radial, distance) = (w - self.axis * height).unit();
+        let outward = radial * self.cos - self.axis * self.sin;
+        let above = self.cos * (distance - self.mid_radius) - self.sin * height;
+        Contact {
+            point: point - outward * above.from_local(self.exponent),
+            outward,
+            reach: self.reach,
+            closed: true,
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The axis-aligned box.
+
+use super::Contact;
+use crate::ray::{Bounds, Ray};
+use crate::scalar::Scalar;
+use crate::vec3::{Axis, Vec3, vec3};
+
+/// A box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Cuboid<S> {
+    /// Its least corner.
+    pub low: Vec3<S>,
+    /// Its greatest corner.
+    pub high: Vec3<S>,
+}
+
+/// Where a ray crosses the slabs of a box: distance and axis, going in and coming out.
+struct Crossing<S> {
+    entry: (S, Axis),
+    exit: (S, Axis),
+}
+
+impl<S: Scalar> Cuboid<S> {
+    /// The slab method (Kay and Kajiya 1986). A ray along a slab is inside or outside of it for
+    /// good, its faces included; no quotient is formed.
+    #[inline(always)]
+    fn cross(&self, ray: &Ray<S>) -> Option<Crossing<S>> {
+        let mut entry = (-S::MAX, Axis::X);
+        let mut exit = (S::MAX, Axis::X);
+        for axis in Axis::ALL {
+            let (o, d) = (ray.origin[axis], ray.direction[axis]);
+            let (low, high) = (self.low[axis] - o, self.high[axis] - o);
+            if d == S::ZERO {
+                if low > S::ZERO || high < S::ZERO {
+                    return None;
+                }
+                continue;
+            }
+            let reciprocal = d.reciprocal();
+            let (a, b) = (low.scaled(reciprocal), high.scaled(reciprocal));
+            let (near, far) = if d < S::ZERO { (b, a) } else { (a, b) };
+            if near > entry.0 {
+                entry = (near, axis);
+            }
+            if far < exit.0 {
+                exit = (far, axis);
+            }
+        }
+        (entry.0 <= exit.0).then_some(Crossing { entry, exit })
+    }
+
+    #[inline(always)]
+    pub(super) fn hit(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
+        let crossing = self.cross(ray)?;
+        let t = if crossing.entry.0 > S::ZERO {
+            crossing.entry.0
+        } else {
+            crossing.exit.0
+        };
+        (t > S::ZERO && t <= limit && self.bounds(slack).contains(ray.at(t))).then_some(t)
+    }
+
+    /// The box that all hits lie in.
+    #[inline(always)]
+    pub(super) fn bounds(&self, slack: S) -> Bounds<S> {
+        let slack = vec3(slack, slack, slack);
+        Bounds {
+            low: self.low - slack,
+            high: self.high + slack,
+        }
+    }
+
+    /// The point goes back onto the face that the ray crosses.
+    #[inline(always)]
+    pub(super) fn contact(&self, ray: &Ray<S>, t: S) -> Contact<S> {
+        let mut point = ray.at(t);
+        let mut outward = Vec3::ZERO;
+        if let Some(Crossing { entry, exit }) = self.cross(ray) {
+            let enters = entry.0 > S::ZERO;
+            let axis = if enters { entry.1 } else { exit.1 };
+            // Going up an axis, a ray enters by the low face and leaves by the high one.
+            let low = (ray.direction[axis] > S::ZERO) == enters;
+            point[axis] = if low { self.low[axis] } else { self.high[axis] };
+            outward[axis] = if low { -S::ONE } else { S::ONE };
+        }
+        Contact {
+            point,
+            outward,
+            reach: S::ZERO,
+            closed: true,
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Trees in memory of their own, for everybody who has an allocator: grown until they fit.
+
+use crate::quantise::Quantised;
+use octray_core::octree::{
+    Link, Node, Octant, Octants, Options, Summary, Tight, TightMemory, Variant,
+};
+use octray_core::ray::Bounds;
+use octray_core::scalar::Quantize;
+use octray_core::shape::ObjectRef;
+
+/// How a tree is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Growth {
+    /// Depth and leaf size.
+    pub options: Options,
+    /// The most nodes; as many as it takes if `None`.
+    pub arena: Option<usize>,
+}
+
+/// A tight tree.
+#[derive(Clone, Debug)]
+pub struct TightTree<P> {
+    nodes: Vec<Node<P>>,
+    links: Vec<ObjectRef>,
+}
+
+impl<P: octray_core::octree::Plane> TightTree<P> {
+    /// Builds the tree, and puts the scene's objects into the order of its leaves.
+    pub fn build<S: Quantize<Plane = P>>(
+        scene: &mut Quantised<S>,
+        growth: &Growth,
+    ) -> (Self, Summary) {
+        let count = scene.shapes().len();
+        let mut links = vec![ObjectRef::default(); count];
+        let mut boxes = vec![Bounds::default(); count];
+        let mut room = growth.arena.unwrap_or(count / 2 + 16).max(1);
+        loop {
+            let mut nodes = vec![Node::EMPTY; room];
+            let memory = TightMemory {
+                nodes: &mut nodes,
+                links: &mut links,
+                boxes: &mut boxes,
+            };
+            // There are a node, and a link and a box for each object: it cannot fail.
+            let (used, summary) = Tight::build(&scene.shapes(), memory, growth.options)
+                .map_or((0, Summary::default()), |(tree, summary)| {
+                    (tree.nodes.len(), summary)
+                });
+            if summary.unsplit > 0 && growth.arena.is_none() {
+                room *= 2;
+                continue;
+            }
+            nodes.truncate(used);
+            scene.reorder(&mut links);
+            return (Self { nodes, links }, summary);
+        }
+    }
+
+    /// The tree as the tracer sees it.
+    pub fn tree(&self) -> Tight<'_, P> {
+        Tight {
+            nodes: &self.nodes,
+            links: &self.links,
+        }
+    }
+}
+
+/// One of the thesis's octrees.
+#[derive(Clone, Debug)]
+pub struct OctantTree<P> {
+    nodes: Vec<Octant<P>>,
+    links: Vec<ObjectRef>,
+}
+
+impl<P: octray_core::octree::Plane> OctantTree<P> {
+    /// Builds the tree, and puts the scene's objects into the order of its leaves.
+    pub fn build<S: Quantize<Plane = P>>(
+        scene: &mut Quantised<S>,
+        growth: &Growth,
+        variant: Variant,
+        link: Link,
+    ) -> (Self, Summary) {
+        // A format whose hits can lie off their surfaces needs every cell that a box touches.
+        let link = if S::SOUND { link } else { Link::Box };
+        let count = scene.shapes().len();
+        let mut room = growth.arena.unwrap_or(8 * count + 64).max(1);
+        let mut link_room = 8 * room + count;
+        loop {
+            let mut nodes = vec![Octant::EMPTY; room];
+            let mut links = vec![ObjectRef::default(); link_room];
+            let (used, summary) = Octants::build(
+                &scene.shapes(),
+                &mut nodes,
+                &mut links,
+                growth.options,
+                variant,
+                link,
+            )
+            .map_or((0, Summary::default()), |(tree, summary)| {
+                (tree.nodes.len(), summary)
+            });
+            // Memory is bounded even where splitting never separates the objects.
+            if summary.unsplit > 0 && growth.arena.is_none() && room < 1 << 24 {
+                room *= 2;
+                link_room *= 2;
+                continue;
+            }
+            nodes.truncate(used);
+            scene.reorder(&mut links);
+            return (Self { nodes, links }, summary);
+        }
+    }
+
+    /// The tree as the tracer sees it.
+    pub fn tree(&self) -> Octants<'_, P> {
+        Octants {
+            nodes: &self.nodes,
+            links: &self.links,
+        }
+    }
+}
+
+/// Every object once, for [`octray_core::octree::List`].
+pub fn every_object<S: Quantize>(scene: &Quantised<S>) -> Vec<ObjectRef> {
+    scene.shapes().refs().collect()
+}
