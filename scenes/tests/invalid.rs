@@ -56,7 +56,7 @@ fn what_is_no_text_file_is_refused() {
 fn a_file_without_permission_is_unreadable() {
     use std::os::unix::fs::PermissionsExt;
     let file = tempfile::NamedTempFile::new().unwrap();
-    let nobody = std::fs::Permissions::from_mode(0);
+    let nobody = std::fs::Permissions::from_mode(0o000);
     std::fs::set_permissions(file.path(), nobody).unwrap();
     if std::fs::File::open(file.path()).is_ok() {
         return; // Nothing is closed to root.

@@ -1,0 +1,70 @@
+//! The sphere flake.
+
+use super::random::{Random, around, scale, sum, unit};
+use super::stage::{PALETTE, Stage, glossy, matt};
+use crate::model::Point;
+
+struct Ball {
+    centre: Point,
+    radius: f64,
+    /// Away from the sphere that carries it.
+    axis: Point,
+}
+
+pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
+    let ground = stage.surface(matt(PALETTE[2]));
+    let slots = slots();
+    let mut left = objects;
+    let mut generation = vec![Ball {
+        centre: [0.0; 3],
+        radius: 0.5,
+        axis: [0.0, 0.0, 1.0],
+    }];
+    generation.truncate(left);
+    let mut colour = random.below(PALETTE.len());
+    while !generation.is_empty() {
+        let surface = stage.surface(glossy(PALETTE[colour], 0.3));
+        colour = (colour + 3) % PALETTE.len(); // 3 and 8 have no common divisor: all come up.
+        for ball in &generation {
+            stage.sphere(surface, ball.centre, ball.radius);
+        }
+        left -= generation.len();
+        let turn = random.between(0.0, 1.0);
+        let children = slots.iter().flat_map(|&slot| {
+            generation.iter().map(move |ball| {
+                let axis = around(ball.axis, turn, slot);
+                let centre = sum(ball.centre, scale(axis, ball.radius * 4.0 / 3.0));
+                Ball {
+                    centre,
+                    radius: ball.radius / 3.0,
+                    axis,
+                }
+            })
+        });
+        generation = children.take(left).collect();
+    }
+    stage.ground(ground, -0.5, 6.0);
+}
+
+/// Where a sphere with its carrier below (−z) carries others: the corners of a cuboctahedron that
+/// lie on the equator and above. Three above come first.
+fn slots() -> [Point; 9] {
+    let x = unit([1.0, -1.0, 0.0]);
+    let y = unit([1.0, 1.0, -2.0]);
+    let z = unit([1.0, 1.0, 1.0]);
+    let corners = [
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 1.0],
+        [1.0, 0.0, 1.0],
+        [1.0, -1.0, 0.0],
+        [-1.0, 1.0, 0.0],
+        [0.0, 1.0, -1.0],
+        [0.0, -1.0, 1.0],
+        [1.0, 0.0, -1.0],
+        [-1.0, 0.0, 1.0],
+    ];
+    corners.map(|corner| {
+        let corner = unit(corner);
+        [x, y, z].map(|axis| super::random::dot(corner, axis))
+    })
+}
