@@ -5,11 +5,13 @@
 
 mod check;
 mod diff;
+mod generate;
 mod render;
 mod value;
 
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
+pub use generate::GenerateArgs;
 pub use render::RenderArgs;
 
 use clap::{Parser, Subcommand};
@@ -28,6 +30,8 @@ pub struct Cli {
 pub enum Command {
     /// Read scenes, and tell what is in them or what is wrong with them
     Check(CheckArgs),
+    /// Generate a scene of any size
+    Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
 }

@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`diff`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@generate`], [`diff`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
@@ -14,6 +14,7 @@ pub mod cli;
 pub mod diff;
 pub mod error;
 pub mod facts;
+pub mod generate;
 pub mod heat;
 pub mod interrupt;
 pub mod job;
@@ -62,6 +63,7 @@ fn run(command: Command) -> Result<(), Error> {
     let interrupt = Interrupt::on_signal()?;
     match command {
         Command::Check(args) => check::run(&args.scenes, &interrupt),
+        Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
     }
 }

@@ -231,6 +231,78 @@ bad.scene:5:1: error: [..]`ball`
     }
 }
 
+mod generate {
+    use super::*;
+
+    #[test]
+    fn every_kind_gives_a_scene_that_reads_back_with_the_wished_number_of_objects() {
+        let folder = TempDir::new().unwrap();
+        for (kind, facts) in [
+            ("flake", "19 spheres, 1 polygon, [..]"),
+            ("lattice", "[..] spheres, [..] cones, 1 polygon, [..]"),
+            ("terrain", "19 polygons, [..]"),
+            ("tree", "9 spheres, 9 cones, 1 polygon, [..]"),
+            ("soup", "[..] patches, [..]"),
+        ] {
+            let name = format!("{kind}.scene");
+            octray(
+                folder.path(),
+                &format!("generate {kind} --count 20 -o {name}"),
+            )
+            .assert()
+            .success()
+            .stdout_eq("")
+            .stderr_eq("");
+            octray(folder.path(), &format!("check {name}"))
+                .assert()
+                .success()
+                .stdout_eq(format!("{name}: {facts}\n"));
+        }
+    }
+
+    #[test]
+    fn standard_output_gets_what_the_file_gets_and_the_seed_matters() {
+        let folder = TempDir::new().unwrap();
+        let made = |line: &str| {
+            let output = octray(folder.path(), line).output().unwrap();
+            assert!(output.status.success(), "{line}");
+            output.stdout
+        };
+        made("generate soup --count 9 --seed 7 -o a.scene");
+        let file = fs::read(folder.path().join("a.scene")).unwrap();
+        assert_eq!(made("generate soup --count 9 --seed 7"), file);
+        assert_ne!(made("generate soup --count 9 --seed 8"), file);
+        assert!(file.starts_with(b"# octray generate soup --count 9 --seed 7\n"));
+    }
+
+    #[test]
+    fn wrong_values_are_bad_usage() {
+        for line in [
+            "",
+            "forest",
+            "soup --count 0",
+            "soup --seed -1",
+            "soup --count 1e9",
+        ] {
+            octray(Path::new("."), &format!("generate {line}"))
+                .assert()
+                .code(2)
+                .stdout_eq("");
+        }
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_told() {
+        octray(Path::new("."), "generate soup -o no/a.scene")
+            .assert()
+            .code(1)
+            .stderr_eq(str![[r#"
+error: cannot write no/a.scene: No such file or directory (os error 2)
+
+"#]]);
+    }
+}
+
 mod usage {
     use super::*;
 
@@ -265,6 +337,7 @@ mod usage {
 mod streams {
     use super::*;
     use std::fs::File;
+    use std::io::Read;
     use std::process::{Command, Stdio};
 
     fn diff(folder: &Path) -> Command {
@@ -285,6 +358,22 @@ mod streams {
             .unwrap();
         assert_eq!(output.status.code(), Some(0));
         assert_data_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    }
+
+    #[test]
+    fn a_long_answer_may_be_cut_by_its_reader() {
+        let mut child = Command::new(cargo_bin!("octray"))
+            .args(["generate", "soup", "--count", "20000"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut start = [0; 16];
+        child.stdout.take().unwrap().read_exact(&mut start).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        assert_data_eq!(String::from_utf8(output.stderr).unwrap(), "");
+        assert_eq!(&start, b"# octray generat");
     }
 
     #[test]

@@ -193,6 +193,24 @@ mod tests {
     }
 
     #[test]
+    fn a_damaged_file_is_read_or_refused_but_never_panics() {
+        let picture = colourful(5, 4);
+        for (_, format) in Format::ALL {
+            for depth in [RasDepth::Eight, RasDepth::TwentyFour] {
+                let mut bytes = Vec::new();
+                encode(&picture, format, depth, &mut bytes).unwrap();
+                for place in 0..bytes.len().min(200) {
+                    for damage in [0, 1, 2, 3, 9, 24, 32, b'-', b'9', 0x7f, 0xff] {
+                        let mut damaged = bytes.clone();
+                        damaged[place] = damage;
+                        let _ = decode(&mut damaged.as_slice());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_rasterfile_with_a_map_is_exact_up_to_256_colours() {
         for (width, height) in [(16, 16), (17, 15), (1, 2)] {
             let picture = colourful(width, height);

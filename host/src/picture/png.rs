@@ -31,7 +31,11 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| malformed("the picture is too large"))?;
-        let mut pixels = vec![0; size];
+        let mut pixels = Vec::new();
+        pixels
+            .try_reserve_exact(size)
+            .map_err(|_| malformed("the picture is too large"))?;
+        pixels.resize(size, 0);
         reader.next_frame(&mut pixels).map_err(refused)?;
         append(&mut levels, &pixels, colour);
     } else {
