@@ -108,3 +108,46 @@ pub enum ReadError {
         drawn: String,
     },
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use token::tests::tokens_read;
+
+    /// Linear time: each token is read once, and again only for the few mistakes that are kept.
+    #[test]
+    fn tokens_are_read_once() {
+        let header = "v 0 0 1 f 1 1 1 1 0 0 0 0 ";
+        let good = format!(
+            "{header}{}",
+            "s 0 0 0 1 p 3 0 0 0 1 0 0 1 1 0 ".repeat(1000)
+        );
+        let count = good.split_whitespace().count();
+        let read = tokens_read(|| drop(parse(&good)));
+        assert!(read <= count + 10, "{read} reads of {count} tokens");
+
+        let many = "1 2 3 ".repeat(10_000);
+        let bad = format!("{header}{}", format!("p 9 {many}").repeat(30));
+        let count = bad.split_whitespace().count();
+        let read = tokens_read(|| drop(parse(&bad)));
+        assert!(read <= 2 * count, "{read} reads of {count} tokens");
+    }
+
+    #[test]
+    fn a_mistake_is_not_reported_twice() {
+        let kinds = |source| -> Vec<_> {
+            parse(source)
+                .unwrap_err()
+                .list
+                .into_iter()
+                .map(|mistake| mistake.kind)
+                .collect()
+        };
+        assert_eq!(kinds("v 0 0 nan at 1 2 3").len(), 1);
+        assert_eq!(kinds("v 0 0 1 f 1 1 s 0 0 0 1 s 0 0 0 2").len(), 1);
+        assert_eq!(kinds("v 0 0 1 s 0 0 0 1 s 0 0 0 2").len(), 1);
+        assert_eq!(kinds("v from 1 2 at 0 0 0 up 0 1 0 angle 200").len(), 1);
+        assert_eq!(kinds("\0\0 1 2 3 \0").len(), 1);
+        assert_eq!(kinds("").len(), 1);
+    }
+}

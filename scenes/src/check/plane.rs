@@ -123,3 +123,126 @@ fn farthest(vectors: impl Iterator<Item = Point>) -> Point {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SQUARE: [Point; 4] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+
+    fn six_digits(number: f64) -> f64 {
+        format!("{number:.5e}").parse().unwrap()
+    }
+
+    #[test]
+    fn bow_ties_and_bridged_holes_are_polygons() {
+        let [a, b, c, d] = SQUARE;
+        assert_eq!(polygon(&[a, c, b, d]), Ok(()));
+        // A hole, joined by an edge that is walked twice.
+        let hole = [
+            [0.2, 0.2, 0.0],
+            [0.4, 0.6, 0.0],
+            [0.6, 0.2, 0.0],
+            [0.2, 0.2, 0.0],
+        ];
+        assert_eq!(polygon(&[&[a, b, c, d, a], &hole[..]].concat()), Ok(()));
+    }
+
+    #[test]
+    fn thin_is_not_collinear() {
+        assert_eq!(
+            polygon(&[[0.0; 3], [1.0, 0.0, 0.0], [0.5, 1e-6, 0.0]]),
+            Ok(())
+        );
+        let line = [
+            [1.1, 2.2, 3.3],
+            [2.2, 4.4, 6.6],
+            [0.3, 0.6, 0.9],
+            [1.0, 2.0, 3.0],
+        ];
+        assert_eq!(polygon(&line), Err(Fault::Collinear));
+    }
+
+    #[test]
+    fn size_and_place_do_not_matter() {
+        for scale in [1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e307] {
+            let scaled = SQUARE.map(|vertex| vertex.map(|number| (number - 0.5) * scale));
+            assert_eq!(polygon(&scaled), Ok(()), "{scale}");
+            let mut bent = scaled;
+            bent[2][2] += 0.02 * scale;
+            assert!(
+                matches!(polygon(&bent), Err(Fault::NotPlanar { .. })),
+                "{scale}"
+            );
+            let line = [0.0, 0.5, -1.0].map(|along| [along * scale; 3]);
+            assert_eq!(polygon(&line), Err(Fault::Collinear), "{scale}");
+        }
+        for far in [1e3, 1e6, 1e12] {
+            let mut moved = SQUARE.map(|vertex| vertex.map(|number| number + far));
+            assert_eq!(polygon(&moved), Ok(()), "{far}");
+            moved[2][2] += 0.25;
+            assert!(
+                matches!(polygon(&moved), Err(Fault::NotPlanar { .. })),
+                "{far}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_largest_numbers_do_not_overflow() {
+        let huge = f64::MAX;
+        let corner = |x: f64, y: f64| [x * huge, y * huge, huge];
+        let vertices = [
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ];
+        assert_eq!(polygon(&vertices), Ok(()));
+        assert_eq!(
+            unit([huge, huge, 0.0]).map(|u| u[0] == u[1] && length(u) < 1.01),
+            Some(true)
+        );
+    }
+
+    proptest! {
+        /// The promise of this module's documentation, also for polygons ten times as far away as
+        /// they are large, and for slivers.
+        #[test]
+        fn six_digits_are_enough(
+            frame in prop::array::uniform3(prop::array::uniform3(-1.0..1.0)),
+            far in 0.0..10.0,
+            thin in prop_oneof![Just(1.0), Just(1e-3)],
+            places in prop::collection::vec((-1.0..1.0, -1.0..1.0), 4..12),
+            scale in -9..9,
+        ) {
+            let [o, u, v] = frame;
+            let scale = 10f64.powi(scale);
+            let vertices: Vec<Point> = places
+                .iter()
+                .map(|(x, y)| {
+                    [0, 1, 2].map(|i| six_digits(scale * (far * o[i] + x * u[i] + thin * y * v[i])))
+                })
+                .collect();
+            let verdict = polygon(&vertices);
+            prop_assert!(!matches!(verdict, Err(Fault::NotPlanar { .. })), "{:?}", verdict);
+        }
+
+        #[test]
+        fn nothing_finite_panics(
+            vertices in prop::collection::vec(prop::array::uniform3(any::<f64>()), 3..6)
+        ) {
+            let finite = vertices.iter().flatten().all(|number| number.is_finite());
+            prop_assume!(finite);
+            if let Err(Fault::NotPlanar { vertex, .. }) = polygon(&vertices) {
+                prop_assert!(vertex < vertices.len());
+            }
+        }
+    }
+}

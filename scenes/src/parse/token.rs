@@ -185,6 +185,8 @@ impl<'s> Iterator for Lexer<'s> {
     type Item = Token<'s>;
 
     fn next(&mut self) -> Option<Token<'s>> {
+        #[cfg(test)]
+        tests::count_token();
         let bytes = self.source.as_bytes();
         let mut at = self.at;
         let mut opens_line = at == 0;
@@ -219,8 +221,22 @@ impl<'s> Iterator for Lexer<'s> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+    use std::cell::Cell;
+
+    thread_local!(static TOKENS: Cell<usize> = const { Cell::new(0) });
+
+    pub(super) fn count_token() {
+        TOKENS.set(TOKENS.get() + 1);
+    }
+
+    /// How many tokens this thread asked for while `run` ran.
+    pub(in crate::parse) fn tokens_read(run: impl FnOnce()) -> usize {
+        let before = TOKENS.get();
+        run();
+        TOKENS.get() - before
+    }
 
     fn texts(source: &str) -> Vec<&str> {
         Lexer::new(source, 0).map(|token| token.text).collect()
