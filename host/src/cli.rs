@@ -28,6 +28,8 @@ pub struct Cli {
 /// One subcommand with its arguments.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Render a scene to a picture
+    Render(RenderArgs),
     /// Read scenes, and tell what is in them or what is wrong with them
     Check(CheckArgs),
     /// Generate a scene of any size

@@ -5,6 +5,7 @@
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
+//! - [`trace`]: the arithmetic and the tree chosen, the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
@@ -27,6 +28,7 @@ pub mod render;
 pub mod schedule;
 pub mod stats;
 pub mod summary;
+pub mod trace;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -62,6 +64,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn run(command: Command) -> Result<(), Error> {
     let interrupt = Interrupt::on_signal()?;
     match command {
+        Command::Render(args) => render::run(&args.job()?, &interrupt, trace::trace),
         Command::Check(args) => check::run(&args.scenes, &interrupt),
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),

@@ -28,7 +28,7 @@ pub struct Traced {
     pub steps: u64,
     /// Objects that rays were tested against.
     pub tests: u64,
-    /// Tests that found a hit.
+    /// Eye rays that met an object.
     pub hits: u64,
     /// Fixed-point results that had to be clamped.
     pub saturations: u64,

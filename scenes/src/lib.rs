@@ -12,6 +12,16 @@
 //! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
 //! | [`tree`] | octrees of a quantised scene, in memory of their own |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
+//!
+//! ```
+//! let scene = octray_scenes::parse("v 0 0 500  f 1 0.5 0.2 0.8 0.2 10 0 1  s 0 0 -50 40")?;
+//! assert_eq!(scene.objects.len(), 1);
+//!
+//! let source = "v 0 0 500\ns 1 2 3";
+//! let mistakes = octray_scenes::parse(source).unwrap_err();
+//! assert!(mistakes.draw("my.scene", source).starts_with("my.scene:2:1: error: "));
+//! # Ok::<(), octray_scenes::diagnostic::Diagnostics>(())
+//! ```
 
 pub mod check;
 pub mod diagnostic;
