@@ -1,7 +1,7 @@
 //! Reading scene files: both dialects of MODEL.md from one stream of tokens.
 //!
-//! [`token`] cuts the source at white space, [`entity`] gathers a keyword and the numbers up to the
-//! next one, [`build`] turns each entity into its part of the scene and has it checked, [`header`]
+//! `token` cuts the source at white space, `entity` gathers a keyword and the numbers up to the
+//! next one, `build` turns each entity into its part of the scene and has it checked, `header`
 //! puts together the camera, which is scattered over several keywords. Nothing but the scene grows with the
 //! file, and every byte is looked at once; places are found again only for mistakes.
 

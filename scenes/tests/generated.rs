@@ -82,8 +82,8 @@ fn the_files_are_the_same_everywhere() {
         snapbox::str![[r#"
 flake 9fa394ae90fcc749
 lattice 410a767b8253b362
-terrain df6f3096070f2657
-tree 4352d4e8e70592a3
+terrain 27efad7e7de2e9a4
+tree 8dc171ab22c5bb63
 soup fd7fa2c976ecf786
 "#]]
     );

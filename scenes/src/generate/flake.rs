@@ -1,6 +1,6 @@
 //! The sphere flake.
 
-use super::random::{Random, around, scale, sum, unit};
+use super::random::{Random, around, dot, scale, sum, unit};
 use super::stage::{PALETTE, Stage, glossy, matt};
 use crate::model::Point;
 
@@ -65,6 +65,6 @@ fn slots() -> [Point; 9] {
     ];
     corners.map(|corner| {
         let corner = unit(corner);
-        [x, y, z].map(|axis| super::random::dot(corner, axis))
+        [x, y, z].map(|axis| dot(corner, axis))
     })
 }

@@ -18,10 +18,13 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     let columns = cells.isqrt();
     let rows = cells / columns;
     let heights = Heights::new(rows.max(columns), &mut random);
+    let (low, high) = heights.range(rows, columns);
     let corner = |row: usize, column: usize| -> Point {
         let x = column as f64 / columns as f64 * 2.0 - 1.0;
         let y = row as f64 / rows as f64 * 2.0 - 1.0;
-        [x, y, heights.at(row, column)]
+        // From 0 to 1, and flatter towards the shore all round.
+        let height = (heights.at(row, column) - low) / (high - low);
+        [x, y, 0.9 * height * (1.0 - x * x) * (1.0 - y * y) - 0.06]
     };
     for row in 0..rows {
         for column in 0..columns {
@@ -30,8 +33,8 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
             for triangle in [[a, b, c], [a, c, d]] {
                 let height = triangle.iter().map(|vertex| vertex[2]).sum::<f64>() / 3.0;
                 let surface = match height {
-                    _ if height < 0.03 => sand,
-                    _ if height < 0.2 => grass,
+                    _ if height < 0.02 => sand,
+                    _ if height < 0.18 => grass,
                     _ if height < 0.36 => rock,
                     _ => snow,
                 };
@@ -95,6 +98,16 @@ impl Heights {
 
     fn at(&self, row: usize, column: usize) -> f64 {
         self.heights[row * (self.side + 1) + column]
+    }
+
+    /// The lowest and the highest point of the first cells, which differ.
+    fn range(&self, rows: usize, columns: usize) -> (f64, f64) {
+        let points = (0..=rows).flat_map(|row| (0..=columns).map(move |column| (row, column)));
+        let heights = points.map(|(row, column)| self.at(row, column));
+        let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), height| {
+            (low.min(height), high.max(height))
+        });
+        (low, high.max(low + f64::MIN_POSITIVE))
     }
 
     fn set(&mut self, row: usize, column: usize, height: f64) {

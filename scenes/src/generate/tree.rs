@@ -59,7 +59,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
                 stage.sphere(bark, branch.tip(), tip_radius);
             } else {
                 let leaf = leaves[random.below(leaves.len())];
-                let radius = tip_radius * random.between(1.8, 3.0);
+                let radius = tip_radius.max(branch.length * random.between(0.14, 0.26));
                 stage.sphere(leaf, branch.tip(), radius);
             }
         }
