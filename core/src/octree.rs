@@ -20,7 +20,7 @@ mod touch;
 pub use build::{BuildError, Options, Summary};
 pub use list::List;
 pub use octants::{Link, Octant, Octants, Variant};
-pub use plane::{Plane, Slope};
+pub use plane::{Faces, Plane, Slope};
 pub use tight::{Node, Tight, TightMemory};
 
 use crate::observe::Observer;

@@ -83,6 +83,9 @@ pub trait Scalar:
     /// `numerator / n` for |numerator| ≤ 8 n, given `n`'s [`Scalar::whole_reciprocal`].
     fn ratio(numerator: i32, n: Self::Reciprocal) -> Self;
 
+    /// ⌊`self` · n⌋ for 0 ≤ `self` ≤ 1; monotone.
+    fn part(self, n: u32) -> u32;
+
     /// The unit vector along `v`, and the length of `v`. The null vector gives itself and 0.
     fn unit(v: [Self; 3]) -> ([Self; 3], Self);
 
@@ -94,7 +97,7 @@ pub trait Scalar:
     fn to_local(self, exponent: i8) -> Self;
 
     /// The inverse of [`Scalar::to_local`], saturating.
-    fn from_local(self, exponent: i8) -> Self;
+    fn to_global(self, exponent: i8) -> Self;
 
     /// A bound on how far a computed surface point, refined onto its shape, can lie from that
     /// shape, with a margin for the next ray's own rounding. `position` is the largest coordinate

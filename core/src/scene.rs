@@ -8,7 +8,7 @@ use crate::vec3::Vec3;
 /// between shapes, lights and viewpoint has a distance of less than [`Scalar::MAX`] from every
 /// other.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S> {
+pub struct Scene<'a, S: Scalar> {
     /// The geometry.
     pub shapes: Shapes<'a, S>,
     /// Who and of what surface each object is, kind by kind in the order of [`Kind`].

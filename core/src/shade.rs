@@ -14,7 +14,7 @@ pub(crate) struct Point<S> {
     pub(crate) contact: Contact<S>,
     /// The shading normal, turned to face the incoming ray.
     pub(crate) normal: Vec3<S>,
-    /// The mirror direction, a unit vector.
+    /// The mirror direction, a unit vector; null where the surface has no use for it.
     pub(crate) mirror: Vec3<S>,
     /// How far off the surface new rays start; see [`Scalar::surface_error`].
     pub(crate) error: S,
@@ -75,8 +75,8 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
             continue;
         }
         let mut share = surface.diffuse * facing;
-        let glance = point.mirror.dot(to_light);
         if surface.specular != Vec3::ZERO {
+            let glance = point.mirror.dot(to_light);
             let shine = glance.max(S::ZERO).power(surface.shine);
             share = share + surface.specular * shine;
         }

@@ -12,7 +12,7 @@ mod sphere;
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub(crate) use polygon::encloses;
-pub use polygon::{Flat, Patch, Polygon, Triangle};
+pub use polygon::{Bands, Flat, Outlines, Patch, Polygon, Triangle};
 pub use sphere::Sphere;
 
 use crate::ray::{Bounds, Ray};
@@ -97,7 +97,7 @@ impl ObjectRef {
 
 /// All shapes of a scene, by kind.
 #[derive(Clone, Copy, Debug)]
-pub struct Shapes<'a, S> {
+pub struct Shapes<'a, S: Scalar> {
     /// Spheres.
     pub spheres: &'a [Sphere<S>],
     /// Polygons of three vertices.
@@ -108,8 +108,8 @@ pub struct Shapes<'a, S> {
     pub cones: &'a [Cone<S>],
     /// Boxes.
     pub cuboids: &'a [Cuboid<S>],
-    /// The vertices of [`Shapes::polygons`], each projected along its polygon's axis.
-    pub corners: &'a [[S; 2]],
+    /// The outlines of [`Shapes::polygons`].
+    pub outlines: Outlines<'a, S>,
     /// How the normal varies over the triangles and polygons that are patches.
     pub patches: &'a [Patch<S>],
     /// The unit normals at the vertices of patches.
@@ -167,7 +167,7 @@ impl<S: Scalar> Shapes<'_, S> {
         match object.kind() {
             Kind::Sphere => self.spheres.get(i)?.hit(ray, limit, self.slack),
             Kind::Triangle => self.triangles.get(i)?.hit(ray, limit),
-            Kind::Polygon => self.polygons.get(i)?.hit(ray, limit, self.corners),
+            Kind::Polygon => self.polygons.get(i)?.hit(ray, limit, &self.outlines),
             Kind::Cone => self.cones.get(i)?.hit(ray, limit),
             Kind::Cuboid => self.cuboids.get(i)?.hit(ray, limit, self.slack),
         }
@@ -219,7 +219,7 @@ impl<S: Scalar> Shapes<'_, S> {
             }
             Kind::Polygon => {
                 let polygon = self.polygons.get(object.index())?;
-                let corners = polygon.corners(self.corners)?;
+                let corners = polygon.corners(self.outlines.corners)?;
                 patch.normal(polygon.plane.project(point), corners, self.normals)
             }
             _ => None,

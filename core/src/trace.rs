@@ -52,7 +52,7 @@ impl<S: Scalar> Workspace<'_, S> {
 
 /// What is traced, and how far.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a, S, A> {
+pub struct Tracer<'a, S: Scalar, A> {
     /// The scene.
     pub scene: &'a Scene<'a, S>,
     /// What finds its objects.
@@ -144,10 +144,15 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
         if against > S::ZERO {
             (normal, against) = (-normal, -against);
         }
+        let mirror = if surface.reflect > S::ZERO || surface.specular != Vec3::ZERO {
+            (incoming - normal * (against + against)).unit().0
+        } else {
+            Vec3::ZERO
+        };
         let point = Point {
             contact,
             normal,
-            mirror: (incoming - normal * (against + against)).unit().0,
+            mirror,
             error: S::surface_error(contact.point.size(), contact.reach),
         };
         let light = shade::local(

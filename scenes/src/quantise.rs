@@ -18,9 +18,11 @@ pub use limits::{Overflow, limits};
 
 use crate::model;
 use octray_core::packet::Frame;
-use octray_core::scalar::{Exponent, Quantize};
+use octray_core::scalar::{Exponent, Quantize, Scalar};
 use octray_core::scene::{Attributes, Light, Scene, Surface};
-use octray_core::shape::{Cone, Cuboid, Kind, ObjectRef, Patch, Polygon, Shapes, Sphere, Triangle};
+use octray_core::shape::{
+    Cone, Cuboid, Kind, ObjectRef, Outlines, Patch, Polygon, Shapes, Sphere, Triangle,
+};
 use octray_core::vec3::Vec3;
 
 /// Where a scene lies in the numbers of a format: number = (coordinate − centre) · 2^exponent.
@@ -74,7 +76,7 @@ impl Placement {
 
 /// A scene in the numbers of one format, owned.
 #[derive(Clone, Debug, Default)]
-pub struct Quantised<S> {
+pub struct Quantised<S: Scalar> {
     /// Spheres.
     pub spheres: Vec<Sphere<S>>,
     /// Polygons of three vertices.
@@ -85,8 +87,12 @@ pub struct Quantised<S> {
     pub cones: Vec<Cone<S>>,
     /// Boxes.
     pub cuboids: Vec<Cuboid<S>>,
-    /// Projected vertices.
+    /// Projected vertices of polygons.
     pub corners: Vec<[S; 2]>,
+    /// Where the edges of polygons' bands begin.
+    pub bands: Vec<u32>,
+    /// The edges of those bands.
+    pub edges: Vec<[[S; 2]; 2]>,
     /// Patches.
     pub patches: Vec<Patch<S>>,
     /// Unit normals of patches.
@@ -172,7 +178,11 @@ impl<S: Quantize> Quantised<S> {
             polygons: &self.polygons,
             cones: &self.cones,
             cuboids: &self.cuboids,
-            corners: &self.corners,
+            outlines: Outlines {
+                corners: &self.corners,
+                bands: &self.bands,
+                edges: &self.edges,
+            },
             patches: &self.patches,
             normals: &self.normals,
             slack: self.slack,

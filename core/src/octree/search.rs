@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::shape::ObjectRef;
 
 /// A search for the first object a ray meets, or with `ANY` for any object nearer than the limit.
-pub(super) struct Search<'a, S, O, const ANY: bool> {
+pub(super) struct Search<'a, S: Scalar, O, const ANY: bool> {
     pub(super) scene: &'a Scene<'a, S>,
     pub(super) ray: &'a Ray<S>,
     /// Nothing beyond this distance matters any more.

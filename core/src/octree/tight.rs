@@ -5,7 +5,7 @@
 
 use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
-use super::{Accelerator, Hit, Plane, STACK, Slope, Stack};
+use super::{Accelerator, Faces, Hit, Plane, STACK, Slope, Stack};
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -237,27 +237,12 @@ impl<P: Plane> Walk<P> {
         }
     }
 
-    /// The distance at which each of the eight boxes is entered, and whether it is met at all
-    /// between 0 and `limit`. Plain loops over all eight, so that they become vector code.
     #[inline(always)]
-    fn meet(&self, node: &Node<P>, limit: P) -> ([P; WIDTH], [bool; WIDTH]) {
-        let mut entry = [P::ZERO; WIDTH];
-        let mut exit = [limit; WIDTH];
-        for i in 0..3 {
-            let near = &node.planes[self.near[i]];
-            let far = &node.planes[self.far[i]];
-            for k in 0..WIDTH {
-                let a = near[k].distance(self.origin[i], self.slope[i].near);
-                let b = far[k].distance(self.origin[i], self.slope[i].far);
-                entry[k] = a.upper(entry[k]);
-                exit[k] = b.lower(exit[k]);
-            }
+    fn faces<'n>(&self, node: &'n Node<P>) -> Faces<'n, P> {
+        Faces {
+            near: self.near.map(|i| &node.planes[i]),
+            far: self.far.map(|i| &node.planes[i]),
         }
-        let mut met = [false; WIDTH];
-        for k in 0..WIDTH {
-            met[k] = entry[k] <= exit[k];
-        }
-        (entry, met)
     }
 }
 
@@ -277,22 +262,23 @@ impl<P: Plane> Tight<'_, P> {
         let mut waiting = 0;
         loop {
             search.observer.step();
-            let (entry, met) = walk.meet(node, search.limit.plane());
+            let limit = search.limit.plane();
+            let (entry, mut met) = P::clip(walk.faces(node), walk.origin, &walk.slope, limit);
             let base = waiting;
-            for k in 0..WIDTH {
-                if met[k] && waiting < STACK {
-                    // Insertion keeps the nearest on top.
-                    let item = (node.children[k], entry[k]);
-                    let mut place = waiting;
-                    if !ANY {
-                        while place > base && stack.0[place - 1].1 < item.1 {
-                            stack.0[place] = stack.0[place - 1];
-                            place -= 1;
-                        }
+            while met != 0 && waiting < STACK {
+                let k = met.trailing_zeros() as usize & (WIDTH - 1);
+                met &= met - 1;
+                // Insertion keeps the nearest on top.
+                let item = (node.children[k], entry[k]);
+                let mut place = waiting;
+                if !ANY {
+                    while place > base && stack.0[place - 1].1 < item.1 {
+                        stack.0[place] = stack.0[place - 1];
+                        place -= 1;
                     }
-                    stack.0[place] = item;
-                    waiting += 1;
                 }
+                stack.0[place] = item;
+                waiting += 1;
             }
             // Leaves are emptied on the spot; the next inner node within the limit goes on.
             node = loop {
@@ -320,7 +306,8 @@ impl<P: Plane> Tight<'_, P> {
 }
 
 impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
-    #[inline(always)]
+    // One copy of the walk per use: inlined into the tracer it would not fit the code cache.
+    #[inline(never)]
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
@@ -333,7 +320,7 @@ impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
         search.hit()
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
         scene: &Scene<'_, S>,

@@ -46,7 +46,7 @@ pub(super) fn touches<S: Scalar>(
             .get(i)
             .is_none_or(|Triangle { plane, corners, .. }| flat(plane, corners, &cell)),
         Kind::Polygon => shapes.polygons.get(i).is_none_or(|p: &Polygon<S>| {
-            p.corners(shapes.corners)
+            p.corners(shapes.outlines.corners)
                 .is_none_or(|corners| flat(&p.plane, corners, &cell))
         }),
     }
@@ -82,8 +82,8 @@ fn cone<S: Scalar>(cone: &Cone<S>, cell: &Bounds<S>) -> bool {
     }
     let height = w.dot(cone.axis);
     let (_, distance) = (w - cone.axis * height).unit();
-    let half_length = cone.half_length.from_local(cone.exponent);
-    let mid_radius = cone.mid_radius.from_local(cone.exponent);
+    let half_length = cone.half_length.to_global(cone.exponent);
+    let mid_radius = cone.mid_radius.to_global(cone.exponent);
     let apart = cone.cos * (distance - mid_radius) - cone.sin * height;
     apart.abs() <= radius && height.abs() <= half_length + radius
 }

@@ -235,6 +235,11 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
+    fn part(self, n: u32) -> u32 {
+        ((u64::from(self.0.max(0) as u32) * u64::from(n)) >> F) as u32
+    }
+
+    #[inline(always)]
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
         let size = v[0].0.unsigned_abs() | v[1].0.unsigned_abs() | v[2].0.unsigned_abs();
         if size == 0 {
@@ -275,7 +280,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn from_local(self, exponent: i8) -> Self {
+    fn to_global(self, exponent: i8) -> Self {
         if exponent >= 0 {
             Self(self.0 >> (exponent & 31))
         } else {

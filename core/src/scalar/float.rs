@@ -61,6 +61,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn part(self, n: u32) -> u32 {
+                (self * n as $t) as u32
+            }
+
+            #[inline(always)]
             fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
                 let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
                 if square > 0.0 {
@@ -83,7 +88,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn from_local(self, _: i8) -> Self {
+            fn to_global(self, _: i8) -> Self {
                 self
             }
 

@@ -73,7 +73,7 @@ impl<S: Scalar> Cone<S> {
         };
         for t in [first, second].into_iter().flatten() {
             let h = height + rise * t;
-            let t = middle + t.from_local(self.exponent);
+            let t = middle + t.to_global(self.exponent);
             if h.abs() <= self.half_length
                 && t > S::ZERO
                 && t <= limit
@@ -102,7 +102,7 @@ impl<S: Scalar> Cone<S> {
         let outward = radial * self.cos - self.axis * self.sin;
         let above = self.cos * (distance - self.mid_radius) - self.sin * height;
         Contact {
-            point: point - outward * above.from_local(self.exponent),
+            point: point - outward * above.to_global(self.exponent),
             outward,
             reach: self.reach,
             closed: true,

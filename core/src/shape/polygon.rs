@@ -70,6 +70,14 @@ fn crosses<S: Scalar>(a: [S; 2], b: [S; 2], p: [S; 2]) -> bool {
     S::product(p[0] - low[0], high[1] - low[1]) < S::product(high[0] - low[0], p[1] - low[1])
 }
 
+/// The same for an edge whose lower end is known.
+#[inline(always)]
+fn crosses_upward<S: Scalar>([low, high]: [[S; 2]; 2], p: [S; 2]) -> bool {
+    low[1] <= p[1]
+        && p[1] < high[1]
+        && S::product(p[0] - low[0], high[1] - low[1]) < S::product(high[0] - low[0], p[1] - low[1])
+}
+
 /// Whether a projected point is inside a polygon: even–odd over its edges.
 #[inline(always)]
 pub(crate) fn encloses<S: Scalar>(corners: &[[S; 2]], p: [S; 2]) -> bool {
@@ -146,9 +154,9 @@ impl<S: Scalar> Range<S> {
 }
 
 /// A polygon of any number of vertices, convex or not.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct Polygon<S> {
+pub struct Polygon<S: Scalar> {
     /// Its plane.
     pub plane: Flat<S>,
     /// Its first vertex in [`super::Shapes::corners`].
@@ -157,19 +165,66 @@ pub struct Polygon<S> {
     pub count: u32,
     /// The box that all hits lie in.
     pub bounds: Bounds<S>,
+    /// Which of its edges can matter at a given height.
+    pub bands: Bands<S>,
+}
+
+/// A polygon's extent along the second projected axis, cut into equal bands, each with the edges
+/// that pass through it: a point is tested against a few edges even if there are hundreds.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Bands<S: Scalar> {
+    /// The first band's place in [`Outlines::bands`].
+    pub first: u32,
+    /// How many bands there are; none for a polygon of few edges, which is tested edge by edge.
+    pub count: u32,
+    /// Where the lowest band begins.
+    pub low: S,
+    /// The reciprocal of the height of all bands together.
+    pub scale: S::Reciprocal,
+}
+
+impl<S: Scalar> Bands<S> {
+    /// The band that holds height `v`; a higher point is never in a lower band.
+    #[inline(always)]
+    pub fn of(&self, v: S) -> u32 {
+        let share = (v - self.low).scaled(self.scale);
+        let last = self.count.saturating_sub(1);
+        share.max(S::ZERO).min(S::ONE).part(self.count).min(last)
+    }
+}
+
+/// The outlines of polygons.
+#[derive(Clone, Copy, Debug)]
+pub struct Outlines<'a, S> {
+    /// The vertices of all polygons, each projected along its polygon's axis.
+    pub corners: &'a [[S; 2]],
+    /// Where each band's edges begin in `edges`, and after a polygon's last band where they end.
+    pub bands: &'a [u32],
+    /// Edges, band by band, lower end first; level ones are left out.
+    pub edges: &'a [[[S; 2]; 2]],
 }
 
 impl<S: Scalar> Polygon<S> {
     #[inline(always)]
-    pub(super) fn hit(&self, ray: &Ray<S>, limit: S, corners: &[[S; 2]]) -> Option<S> {
+    pub(super) fn hit(&self, ray: &Ray<S>, limit: S, outlines: &Outlines<'_, S>) -> Option<S> {
         let t = self.plane.hit(ray, limit)?;
         let point = ray.at(t);
         if !self.bounds.contains(point) {
             return None;
         }
         let p = self.plane.project(point);
-        let corners = self.corners(corners)?;
-        encloses(corners, p).then_some(t)
+        let inside = if self.bands.count == 0 {
+            encloses(self.corners(outlines.corners)?, p)
+        } else {
+            let band = (self.bands.first + self.bands.of(p[1])) as usize;
+            let (start, end) = (outlines.bands.get(band)?, outlines.bands.get(band + 1)?);
+            let edges = outlines.edges.get(*start as usize..*end as usize)?;
+            edges
+                .iter()
+                .fold(false, |odd, edge| odd ^ crosses_upward(*edge, p))
+        };
+        inside.then_some(t)
     }
 
     /// Its vertices, projected.

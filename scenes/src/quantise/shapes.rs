@@ -7,7 +7,7 @@ use crate::model::{Object, Point, Scene, Shape};
 use octray_core::ray::Bounds;
 use octray_core::scalar::Quantize;
 use octray_core::scene::Attributes;
-use octray_core::shape::{Cone, Cuboid, Flat, Kind, Patch, Polygon, Sphere, Triangle};
+use octray_core::shape::{Bands, Cone, Cuboid, Flat, Kind, Patch, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 
 impl<S: Quantize> Quantised<S> {
@@ -148,14 +148,53 @@ impl<S: Quantize> Quantised<S> {
             });
             return Kind::Triangle;
         }
+        let first = self.corners.len() as u32;
+        self.corners.extend(vertices.iter().map(corner));
+        let bands = self.bands(&bounds, v, first as usize);
         self.polygons.push(Polygon {
             plane,
-            first: self.corners.len() as u32,
+            first,
             count,
             bounds,
+            bands,
         });
-        self.corners.extend(vertices.iter().map(corner));
         Kind::Polygon
+    }
+
+    /// Cuts the polygon whose corners were added last into bands, as many as half its edges, fewer
+    /// if most edges pass through most of them.
+    fn bands(&mut self, bounds: &Bounds<S>, v: Axis, first: usize) -> Bands<S> {
+        let corners = &self.corners[first..];
+        let low = bounds.low[v];
+        let mut bands = Bands {
+            first: self.bands.len() as u32,
+            count: corners.len() as u32 / 2,
+            low,
+            scale: (bounds.high[v] - low).reciprocal(),
+        };
+        let edges: Vec<_> = (corners.iter().zip(corners.iter().cycle().skip(1)))
+            .filter(|(a, b)| a[1] != b[1])
+            .map(|(a, b)| if a[1] < b[1] { [*a, *b] } else { [*b, *a] })
+            .collect();
+        loop {
+            if bands.count < 4 {
+                bands.count = 0;
+                return bands;
+            }
+            let passed = |edge: &[[S; 2]; 2]| bands.of(edge[0][1])..=bands.of(edge[1][1]);
+            let all: usize = edges.iter().map(|edge| passed(edge).count()).sum();
+            if all > 8 * corners.len() {
+                bands.count /= 2;
+                continue;
+            }
+            for band in 0..bands.count {
+                self.bands.push(self.edges.len() as u32);
+                let here = edges.iter().filter(|edge| passed(edge).contains(&band));
+                self.edges.extend(here);
+            }
+            self.bands.push(self.edges.len() as u32);
+            return bands;
+        }
     }
 
     /// Adds the normals of the patch whose polygon was added last.

@@ -54,7 +54,7 @@ fn mul_q31(a: u32, b: u32) -> u32 {
 
 #[inline(always)]
 fn mul_q30(a: i32, b: i32) -> i32 {
-    (i64::from(a) * i64::from(b) >> 30) as i32
+    ((i64::from(a) * i64::from(b)) >> 30) as i32
 }
 
 fn polynomial_q30(coefficients: &[i32], x_q30: i32) -> i32 {

@@ -11,7 +11,7 @@ pub(super) fn reciprocal_q30(x_q32: u32) -> u32 {
         // y ← y (2 − x y)
         let product_q30 = high(x_q32, y_q30);
         let rest_q30 = 0x8000_0000u32.wrapping_sub(product_q30);
-        y_q30 = (u64::from(y_q30) * u64::from(rest_q30) >> 30) as u32;
+        y_q30 = ((u64::from(y_q30) * u64::from(rest_q30)) >> 30) as u32;
     }
     y_q30.min(0x7fff_ffff)
 }
@@ -30,7 +30,7 @@ pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
         let square_q28 = high(y_q30, y_q30);
         let product_q28 = high(x_q32, square_q28);
         let rest_q28 = 0x3000_0000u32.wrapping_sub(product_q28);
-        y_q30 = (u64::from(y_q30) * u64::from(rest_q28) >> 29) as u32;
+        y_q30 = ((u64::from(y_q30) * u64::from(rest_q28)) >> 29) as u32;
     }
     y_q30.min(0x7fff_ffff)
 }
@@ -38,7 +38,7 @@ pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
 /// The high half of the product.
 #[inline(always)]
 fn high(a: u32, b: u32) -> u32 {
-    (u64::from(a) * u64::from(b) >> 32) as u32
+    ((u64::from(a) * u64::from(b)) >> 32) as u32
 }
 
 /// 1/x in the middle of each 64th of [½, 1), with 15 bits behind the point, indexed by the six bits

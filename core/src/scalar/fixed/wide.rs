@@ -128,6 +128,10 @@ impl Scalar for Fixed64 {
         Self(i64::from(numerator)).scaled(n)
     }
 
+    fn part(self, n: u32) -> u32 {
+        ((i128::from(self.0.max(0)) * i128::from(n)) >> F) as u32
+    }
+
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
         let size = v.iter().fold(0, |size, c| size | c.0.unsigned_abs());
         if size == 0 {
@@ -161,7 +165,7 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn from_local(self, exponent: i8) -> Self {
+    fn to_global(self, exponent: i8) -> Self {
         if exponent >= 0 {
             Self(self.0 >> (exponent & 63))
         } else {
