@@ -64,7 +64,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
         let last = blockers.get(i).copied().flatten();
         let still = last.filter(|&object| {
             observer.test();
-            scene.shapes.hit(object, &ray, limit).is_some()
+            scene.shapes.blocks(object, &ray, limit)
         });
         let blocker = still.or_else(|| accelerator.any_hit(scene, &ray, limit, stack, observer));
         if blocker.is_some() {

@@ -173,6 +173,13 @@ impl<S: Scalar> Shapes<'_, S> {
         }
     }
 
+    /// Whether `ray` meets the object at 0 < t ≤ `limit`: [`Shapes::hit`], once more in the code
+    /// for where it is not the innermost loop.
+    #[inline(never)]
+    pub fn blocks(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> bool {
+        self.hit(object, ray, limit).is_some()
+    }
+
     /// The box that every hit of the object lies in.
     pub fn bounds(&self, object: ObjectRef) -> Bounds<S> {
         let i = object.index();

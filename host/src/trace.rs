@@ -3,14 +3,14 @@
 
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, Link, PixelsPerRay, RenderJob, StatsFormat, Tree};
+use crate::job::{Arith, Link, PixelsPerRay, RenderJob, Tree};
 use crate::packets::Packets;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::schedule::run_packets;
 use crate::stats::{Octree, Rays};
-use octray_core::observe::{Counters, Observer, RayKind};
+use octray_core::observe::{Counters, RayKind};
 use octray_core::octree::{self, Accelerator, List, Options, Stack, Summary, Variant};
 use octray_core::scalar::{self, Approx, Fixed, Fixed64, Quantize};
 use octray_core::trace::{Pending, Tracer, Workspace};
@@ -117,7 +117,8 @@ impl Task<'_> {
                     Tree::Plain => Variant::Plain,
                     _ => Variant::Modified,
                 };
-                let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
+                let (tree, summary) =
+                    OctantTree::build(&mut prepared.scene, &growth, variant, link);
                 self.picture(&prepared, &tree.tree(), summary, begin)
             }
             Tree::None => {
@@ -131,7 +132,7 @@ impl Task<'_> {
         }
     }
 
-    /// Renders with or without counting.
+    /// Renders the picture, and gathers what it cost.
     fn picture<S: Quantize, A: Accelerator<S>>(
         &self,
         prepared: &Prepared<S>,
@@ -141,20 +142,11 @@ impl Task<'_> {
     ) -> Result<Traced, Error> {
         let build = begin.elapsed();
         let begin = Instant::now();
-        let (picture, counters, threads, packets) = match self.job.stats {
-            StatsFormat::None => {
-                let (picture, states, packets) = self.packets::<S, A, ()>(prepared, tree)?;
-                (picture, Counters::default(), states.len(), packets)
-            }
-            StatsFormat::Text | StatsFormat::Json => {
-                let (picture, states, packets) = self.packets::<S, A, Counters>(prepared, tree)?;
-                let mut sum = Counters::default();
-                for counters in &states {
-                    sum.add(counters);
-                }
-                (picture, sum, states.len(), packets)
-            }
-        };
+        let (picture, states, packets) = self.packets(prepared, tree)?;
+        let mut counters = Counters::default();
+        for state in &states {
+            counters.add(state);
+        }
         Ok(Traced {
             picture,
             format: S::NAME.into(),
@@ -179,18 +171,18 @@ impl Task<'_> {
             },
             build,
             render: begin.elapsed(),
-            threads,
+            threads: states.len(),
             packets,
         })
     }
 
-    /// Deals the picture's packets to threads. Returns it with the observer of each thread and the
-    /// number of packets.
-    fn packets<S: Quantize, A: Accelerator<S>, O: Observer + Default + Send>(
+    /// Deals the picture's packets to threads. Returns it with what each thread counted (counting
+    /// costs less than the time of a frame varies) and the number of packets.
+    fn packets<S: Quantize, A: Accelerator<S>>(
         &self,
         prepared: &Prepared<S>,
         tree: &A,
-    ) -> Result<(Picture, Vec<O>, usize), Error> {
+    ) -> Result<(Picture, Vec<Counters>, usize), Error> {
         let frame = &prepared.frame;
         let scene = prepared.scene.scene();
         let tracer = Tracer {
@@ -218,7 +210,7 @@ impl Task<'_> {
             self.job.work.threads,
             self.job.work.schedule,
             self.interrupt,
-            |_| State::<S, O>::new(self.job.view.max_depth, scene.lights.len()),
+            |_| State::<S>::new(self.job.view.max_depth, scene.lights.len()),
             |state, index| {
                 let Some(mut packet) = packets.take(index) else {
                     return;
@@ -230,37 +222,43 @@ impl Task<'_> {
                     blockers: &mut state.blockers,
                 };
                 let rows = packet.rows.clone();
-                frame.render(rows, &tracer, &mut workspace, &mut state.observer, |x, y, c| {
-                    let place = (y - first) as usize * width as usize + x as usize;
-                    packet.levels[place] = c.to_array().map(S::level);
-                    if let Some(floats) = &mut packet.intensities {
-                        floats[place] = intensity(c);
-                    }
-                });
+                frame.render(
+                    rows,
+                    &tracer,
+                    &mut workspace,
+                    &mut state.counters,
+                    |x, y, c| {
+                        let place = (y - first) as usize * width as usize + x as usize;
+                        packet.levels[place] = c.to_array().map(S::level);
+                        if let Some(floats) = &mut packet.intensities {
+                            floats[place] = intensity(c);
+                        }
+                    },
+                );
             },
             || self.progress.step(),
         )?;
         drop(packets);
-        let observers = finished.into_iter().map(|f| f.state.observer).collect();
-        Ok((picture, observers, count))
+        let counters = finished.into_iter().map(|f| f.state.counters).collect();
+        Ok((picture, counters, count))
     }
 }
 
 /// What one thread works with.
-struct State<S: Quantize, O> {
+struct State<S: Quantize> {
     rays: Vec<Pending<S>>,
     stack: Stack<S::Plane>,
     blockers: Vec<Option<octray_core::shape::ObjectRef>>,
-    observer: O,
+    counters: Counters,
 }
 
-impl<S: Quantize, O: Default> State<S, O> {
+impl<S: Quantize> State<S> {
     fn new(max_depth: u32, lights: usize) -> Self {
         Self {
             rays: vec![Pending::EMPTY; max_depth as usize + 2],
             stack: Stack::default(),
             blockers: vec![None; lights],
-            observer: O::default(),
+            counters: Counters::default(),
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::shape::ObjectRef;
 pub struct List<'a>(pub &'a [ObjectRef]);
 
 impl<S: Scalar> Accelerator<S> for List<'_> {
-    #[inline(always)]
+    #[inline(never)]
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
@@ -26,7 +26,7 @@ impl<S: Scalar> Accelerator<S> for List<'_> {
         search.hit()
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
         scene: &Scene<'_, S>,

@@ -377,7 +377,7 @@ impl<P: Plane> Octants<'_, P> {
 }
 
 impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
-    #[inline(always)]
+    #[inline(never)]
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
@@ -390,7 +390,7 @@ impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
         search.hit()
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
