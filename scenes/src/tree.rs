@@ -88,7 +88,7 @@ impl<P: octray_core::octree::Plane> OctantTree<P> {
         loop {
             let mut nodes = vec![Octant::EMPTY; room];
             let mut links = vec![ObjectRef::default(); link_room];
-            let (used, summary) = Octants::build(
+            let (used, used_links, summary) = Octants::build(
                 &scene.shapes(),
                 &mut nodes,
                 &mut links,
@@ -96,8 +96,8 @@ impl<P: octray_core::octree::Plane> OctantTree<P> {
                 variant,
                 link,
             )
-            .map_or((0, Summary::default()), |(tree, summary)| {
-                (tree.nodes.len(), summary)
+            .map_or((0, 0, Summary::default()), |(tree, summary)| {
+                (tree.nodes.len(), tree.links.len(), summary)
             });
             // Memory is bounded even where splitting never separates the objects.
             if summary.unsplit > 0 && growth.arena.is_none() && room < 1 << 24 {
@@ -106,6 +106,7 @@ impl<P: octray_core::octree::Plane> OctantTree<P> {
                 continue;
             }
             nodes.truncate(used);
+            links.truncate(used_links);
             scene.reorder(&mut links);
             return (Self { nodes, links }, summary);
         }
