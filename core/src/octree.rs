@@ -38,8 +38,9 @@ pub struct Hit<S> {
     pub object: ObjectRef,
 }
 
-/// The most nodes that can wait while a tree is walked: every level leaves seven behind.
-pub const STACK: usize = 7 * build::MAX_DEPTH as usize + 8;
+/// Room for the nodes that can wait while a tree is walked: every level leaves seven behind.
+pub const STACK: usize = 256;
+const _: () = assert!(7 * (build::MAX_DEPTH as usize + 1) < STACK);
 
 /// The nodes that wait while a tree is walked, with the distance at which each is entered. Lent,
 /// since clearing it for each ray would cost more than the walk.

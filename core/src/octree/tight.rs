@@ -5,7 +5,7 @@
 
 use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
-use super::{Accelerator, Faces, Hit, Plane, STACK, Slope, Stack};
+use super::{Accelerator, Faces, Hit, Plane, Slope, Stack};
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -209,6 +209,11 @@ fn split<P: Plane>(
         groups[count] = Group::of(middle, end, boxes);
         count += 1;
     }
+    // A search for any hit tries the children in this order: the largest is the likeliest.
+    groups[..count].sort_unstable_by(|a, b| {
+        let area = |group: &Group<P>| P::half_area(build::sides(&group.bounds));
+        area(b).partial_cmp(&area(a)).unwrap_or(core::cmp::Ordering::Equal)
+    });
     (groups, count)
 }
 
@@ -249,6 +254,9 @@ impl<P: Plane> Walk<P> {
 impl<P: Plane> Tight<'_, P> {
     /// Children are visited in the order in which the ray enters them; a search for any hit takes
     /// them as they come.
+    ///
+    /// The child entered first is gone on with directly, only the others go through the stack; its
+    /// places are counted in a `u8`, which cannot leave its 256, so that no access is checked.
     #[inline(always)]
     fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool>(
         &self,
@@ -259,37 +267,50 @@ impl<P: Plane> Tight<'_, P> {
             return;
         };
         let walk = Walk::new(search.ray);
-        let mut waiting = 0;
+        let mut waiting = 0u8;
         loop {
             search.observer.step();
             let limit = search.limit.plane();
             let (entry, mut met) = P::clip(walk.faces(node), walk.origin, &walk.slope, limit);
-            let base = waiting;
-            while met != 0 && waiting < STACK {
-                let k = met.trailing_zeros() as usize & (WIDTH - 1);
-                met &= met - 1;
-                // Insertion keeps the nearest on top.
-                let item = (node.children[k], entry[k]);
-                let mut place = waiting;
-                if !ANY {
-                    while place > base && stack.0[place - 1].1 < item.1 {
-                        stack.0[place] = stack.0[place - 1];
+            let mut next = None;
+            if met != 0 {
+                let mut child = || {
+                    let k = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    (met == 0, (node.children[k], entry[k]))
+                };
+                let (mut last, mut first) = child();
+                let base = waiting;
+                while !last {
+                    let mut item;
+                    (last, item) = child();
+                    if !ANY && item.1 < first.1 {
+                        (item, first) = (first, item);
+                    }
+                    let mut place = waiting;
+                    while !ANY && place > base && stack.0[usize::from(place - 1)].1 < item.1 {
+                        stack.0[usize::from(place)] = stack.0[usize::from(place - 1)];
                         place -= 1;
                     }
+                    stack.0[usize::from(place)] = item;
+                    waiting = waiting.wrapping_add(1);
                 }
-                stack.0[place] = item;
-                waiting += 1;
+                next = Some(first.0);
             }
             // Leaves are emptied on the spot; the next inner node within the limit goes on.
             node = loop {
-                if waiting == 0 {
-                    return;
-                }
-                waiting -= 1;
-                let (word, entry) = stack.0[waiting];
-                if !ANY && entry > search.limit.plane() {
-                    continue;
-                }
+                let word = match next.take() {
+                    Some(word) => word,
+                    None if waiting == 0 => return,
+                    None => {
+                        waiting -= 1;
+                        let (word, entry) = stack.0[usize::from(waiting)];
+                        if !ANY && entry > search.limit.plane() {
+                            continue;
+                        }
+                        word
+                    }
+                };
                 if word & Word::LEAF == 0 {
                     match self.nodes.get(word as usize) {
                         Some(node) => break node,
