@@ -4,9 +4,10 @@ use crate::scalar::{Exponent, Scalar};
 use crate::shape::{Kind, ObjectRef, Shapes};
 use crate::vec3::Vec3;
 
-/// A scene, ready to be traced. Whoever fills it in proves that nothing overflows: every point
-/// between shapes, lights and viewpoint has a distance of less than [`Scalar::MAX`] from every
-/// other.
+/// A scene, ready to be traced. Whoever fills it in proves that nothing overflows: the middle of
+/// all shapes, lights and viewpoints is at the origin, and their largest distance, `reach`, is at
+/// most ⅔ of [`Scalar::MAX`], so that every point a ray comes to within its reach has coordinates
+/// in range.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a, S: Scalar> {
     /// The geometry.
@@ -21,6 +22,8 @@ pub struct Scene<'a, S: Scalar> {
     pub lights: &'a [Light<S>],
     /// What a ray that hits nothing brings.
     pub background: Vec3<S>,
+    /// No two points of shapes, lights and viewpoint are farther apart; no hit is looked for beyond.
+    pub reach: S,
 }
 
 /// What is known of an object besides its geometry.

@@ -1,9 +1,10 @@
 //! From the parsed scene to one arithmetic: where the scene is put, how it is scaled, and whether
 //! it fits.
 //!
-//! The scene is moved so that its middle is the origin and scaled by a power of two. For floating
-//! point its diagonal becomes 1 to 2; for fixed point it becomes as large as the format holds, so
-//! that every coordinate, every distance and every difference of two points fits. What cannot be
+//! The scene is moved and scaled by a power of two. For floating point the middle of the objects
+//! becomes the origin, where numbers are finest, and the diagonal 1 to 2. For fixed point the
+//! middle of everything, lights and viewpoint included, becomes the origin, and the diagonal as
+//! large as the format holds, so that every coordinate, distance and difference of points fits. What cannot be
 //! scaled (colours, refraction indices) is bounded by [`limits`]; if it does not fit, the value
 //! that would overflow is named.
 
@@ -28,7 +29,7 @@ use octray_core::vec3::Vec3;
 /// Where a scene lies in the numbers of a format: number = (coordinate − centre) · 2^exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// The middle of everything.
+    /// What becomes the origin.
     pub centre: model::Point,
     /// The exponent of the scale.
     pub exponent: i32,
@@ -41,8 +42,9 @@ impl Placement {
     pub fn of<S: Quantize>(extent: &Extent) -> Self {
         // Boxes are wider than their shapes, and rounding needs a little room at the rim.
         let diagonal = extent.diagonal() * (1.0 + 4.0 * S::SLACK) * 1.001;
+        // A ray that starts at the rim and goes as far as the diagonal ends at 1½ of it.
         let room = if S::FRACTION_BITS.is_some() {
-            S::MAX.to_f64()
+            S::MAX.to_f64() / 1.5
         } else {
             2.0
         };
@@ -52,7 +54,7 @@ impl Placement {
             0
         };
         Self {
-            centre: extent.middle(),
+            centre: extent.middle(S::FRACTION_BITS.is_some()),
             exponent,
             diagonal: extent.diagonal(),
         }
@@ -107,6 +109,8 @@ pub struct Quantised<S: Scalar> {
     pub background: Vec3<S>,
     /// How far hits may lie off their shapes.
     pub slack: S,
+    /// The largest distance between two points.
+    pub reach: S,
     all_attributes: Vec<Attributes>,
 }
 
@@ -133,6 +137,7 @@ pub fn quantise<S: Quantize>(scene: &model::Scene, view: &View) -> Result<Prepar
     let frame = view.frame::<S>(&rays, scene, &extent, &placement);
     let mut quantised = Quantised {
         slack: up(placement.length(placement.diagonal) * S::SLACK),
+        reach: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
         surfaces: scene.surfaces.iter().map(surface).collect(),
         lights: scene
             .lights
@@ -167,6 +172,7 @@ impl<S: Quantize> Quantised<S> {
             surfaces: &self.surfaces,
             lights: &self.lights,
             background: self.background,
+            reach: self.reach,
         }
     }
 

@@ -21,7 +21,7 @@ impl<S: Scalar> Accelerator<S> for List<'_> {
         _: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, S::MAX, observer);
+        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
         search.list(self.0);
         search.hit()
     }

@@ -385,7 +385,7 @@ impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, S::MAX, observer);
+        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
         self.walk(&mut search, stack);
         search.hit()
     }

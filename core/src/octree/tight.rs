@@ -212,7 +212,9 @@ fn split<P: Plane>(
     // A search for any hit tries the children in this order: the largest is the likeliest.
     groups[..count].sort_unstable_by(|a, b| {
         let area = |group: &Group<P>| P::half_area(build::sides(&group.bounds));
-        area(b).partial_cmp(&area(a)).unwrap_or(core::cmp::Ordering::Equal)
+        area(b)
+            .partial_cmp(&area(a))
+            .unwrap_or(core::cmp::Ordering::Equal)
     });
     (groups, count)
 }
@@ -336,7 +338,7 @@ impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, S::MAX, observer);
+        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
         self.walk(&mut search, stack);
         search.hit()
     }

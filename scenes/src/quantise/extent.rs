@@ -43,9 +43,13 @@ impl Extent {
         x.hypot(y).hypot(z)
     }
 
-    /// The middle.
-    pub fn middle(&self) -> Point {
-        let [low, high] = self.everything;
+    /// The middle of everything, or of the objects if there are any.
+    pub fn middle(&self, everything: bool) -> Point {
+        let [low, high] = if everything || self.objects[0][0] > self.objects[1][0] {
+            self.everything
+        } else {
+            self.objects
+        };
         [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0)
     }
 }
