@@ -86,9 +86,12 @@ impl<S: Scalar> Frame<S> {
     ) {
         workspace.forget();
         let rows = rows.start.max(self.active.rows.start)..rows.end.min(self.active.rows.end);
-        for row in rows.clone().filter(|row| row % self.block == 0) {
-            let columns = self.active.columns.clone();
-            for column in columns.clone().filter(|column| column % self.block == 0) {
+        let columns = self.active.columns.clone();
+        let starts = |range: &Range<u32>| {
+            (range.start.next_multiple_of(self.block)..range.end).step_by(self.block as usize)
+        };
+        for row in starts(&rows) {
+            for column in starts(&columns) {
                 let colour = self.colour(column, row, tracer, workspace, observer);
                 for y in row..(row + self.block).min(rows.end) {
                     for x in column..(column + self.block).min(columns.end) {
