@@ -99,7 +99,10 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
                 return sum;
             }
             waiting -= 1;
-            next = workspace.rays[waiting];
+            match workspace.rays.get(waiting) {
+                Some(pending) => next = *pending,
+                None => return sum,
+            }
         }
     }
 

@@ -138,11 +138,23 @@ pub(super) fn part<P: Plane, T: Copy>(boxes: &mut [Bounds<P>], things: &mut [T])
     let (low, high) = (middles.low[axis], middles.high[axis]);
     let mut first = 0;
     for i in 0..boxes.len() {
-        if middle(&boxes[i])[axis].bin(low, high, BINS as u32) < plane {
-            boxes.swap(first, i);
-            things.swap(first, i);
+        let below = |b: &Bounds<P>| middle(b)[axis].bin(low, high, BINS as u32) < plane;
+        if boxes.get(i).is_some_and(below) {
+            swap(boxes, first, i);
+            swap(things, first, i);
             first += 1;
         }
     }
     first
+}
+
+/// `slice::swap` without a panic: nothing happens to places that are not there.
+fn swap<T: Copy>(things: &mut [T], a: usize, b: usize) {
+    if let (Some(&x), Some(&y)) = (things.get(a), things.get(b)) {
+        for (place, thing) in [(a, y), (b, x)] {
+            if let Some(slot) = things.get_mut(place) {
+                *slot = thing;
+            }
+        }
+    }
 }

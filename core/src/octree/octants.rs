@@ -5,7 +5,7 @@
 use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
 use super::touch::touches;
-use super::{Accelerator, Hit, Plane, STACK, Slope, Stack};
+use super::{Accelerator, Hit, Plane, Slope, Stack};
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -56,6 +56,17 @@ impl<P: Plane> Octant<P> {
         first: 0,
         count: LEAF,
     };
+
+    #[inline(always)]
+    const fn is_leaf(&self) -> bool {
+        self.count & LEAF != 0
+    }
+
+    /// How many parts or objects.
+    #[inline(always)]
+    const fn count(&self) -> u32 {
+        self.count & !LEAF
+    }
 }
 
 /// A finished octree.
@@ -82,18 +93,17 @@ impl<'a, P: Plane> Octants<'a, P> {
         link: Link,
     ) -> Result<(Self, Summary), BuildError> {
         let count = shapes.len();
-        if nodes.is_empty() || links.len() < count {
-            return Err(BuildError {
-                nodes: 1,
-                links: count,
-            });
-        }
+        let too_small = BuildError {
+            nodes: 1,
+            links: count,
+        };
         let mut bounds = build::nothing();
-        for (i, object) in shapes.refs().enumerate() {
-            links[i] = object;
+        let all = links.get_mut(..count).ok_or(too_small)?;
+        for (link, object) in all.iter_mut().zip(shapes.refs()) {
+            *link = object;
             bounds = build::union(bounds, build::planes(shapes.bounds(object)));
         }
-        nodes[0] = Octant {
+        *nodes.first_mut().ok_or(too_small)? = Octant {
             bounds,
             first: 0,
             count: LEAF | count as u32,
@@ -110,14 +120,16 @@ impl<'a, P: Plane> Octants<'a, P> {
         };
         let mut summary = builder.grow(options.depth.clamp(1, MAX_DEPTH));
         let (used_nodes, used_links) = (builder.used_nodes, builder.used_links);
-        let (nodes, links) = (&mut nodes[..used_nodes], &mut links[..used_links]);
-        for node in nodes.iter().filter(|node| node.count & LEAF != 0) {
-            let count = node.count & !LEAF;
+        let nodes = nodes.get(..used_nodes).unwrap_or_default();
+        let links = links.get_mut(..used_links).unwrap_or_default();
+        for node in nodes.iter().filter(|node| node.is_leaf()) {
             summary.leaves += 1;
-            summary.links += count;
-            if count > 0 {
-                let last = (node.first + count) as usize - 1;
-                links[last] = links[last].marked_last(true);
+            summary.links += node.count();
+            let last = (node.first + node.count()).wrapping_sub(1);
+            if node.count() > 0
+                && let Some(last) = links.get_mut(last as usize)
+            {
+                *last = last.marked_last(true);
             }
         }
         Ok((Self { nodes, links }, summary))
@@ -143,19 +155,27 @@ impl<S: Scalar> Builder<'_, '_, S> {
         while done < self.used_nodes && depth <= deepest {
             let level_end = self.used_nodes;
             for node in done..level_end {
-                if self.nodes[node].count & !LEAF <= self.leaf_size {
+                let Some(&cell) = self.nodes.get(node) else {
+                    break;
+                };
+                if cell.count() <= self.leaf_size {
                     continue;
                 }
-                if self.variant == Variant::Modified {
-                    self.shrink(node);
-                }
-                match self.split(node) {
+                let cell = match self.variant {
+                    Variant::Plain => cell,
+                    Variant::Modified => self.shrink(cell),
+                };
+                let (cell, split) = self.split(cell);
+                match split {
                     Split::Done => {
                         summary.inner += 1;
                         summary.depth = depth;
                     }
                     Split::Futile => {}
                     Split::Full => summary.unsplit += 1,
+                }
+                if let Some(place) = self.nodes.get_mut(node) {
+                    *place = cell;
                 }
             }
             done = level_end;
@@ -164,13 +184,18 @@ impl<S: Scalar> Builder<'_, '_, S> {
         summary
     }
 
+    /// The objects of a leaf.
+    fn objects(&self, cell: &Octant<S::Plane>) -> &[ObjectRef] {
+        let start = cell.first as usize;
+        let end = start + cell.count() as usize;
+        self.links.get(start..end).unwrap_or_default()
+    }
+
     /// The cluster box: a cell whose objects' box, cut to the cell, fills less than half of it
     /// becomes that box.
-    fn shrink(&mut self, node: usize) {
-        let cell = self.nodes[node];
-        let start = cell.first as usize;
+    fn shrink(&self, mut cell: Octant<S::Plane>) -> Octant<S::Plane> {
         let mut cluster = build::nothing();
-        for &object in &self.links[start..start + (cell.count & !LEAF) as usize] {
+        for &object in self.objects(&cell) {
             cluster = build::union(cluster, build::planes(self.shapes.bounds(object)));
         }
         for axis in Axis::ALL {
@@ -180,14 +205,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
         type P<S> = <S as Scalar>::Plane;
         let volume = P::<S>::volume(build::sides(&cluster));
         if P::<S>::sum(volume, volume) < P::<S>::volume(build::sides(&cell.bounds)) {
-            self.nodes[node].bounds = cluster;
+            cell.bounds = cluster;
         }
+        cell
     }
 
-    /// Makes a leaf an inner node.
-    fn split(&mut self, node: usize) -> Split {
-        let cell = self.nodes[node];
-        let count = (cell.count & !LEAF) as usize;
+    /// Makes a leaf an inner node, if possible.
+    fn split(&mut self, cell: Octant<S::Plane>) -> (Octant<S::Plane>, Split) {
         let centre = build::middle(&cell.bounds);
         let mut cells = [Octant::EMPTY; 8];
         for (k, octant) in cells.iter_mut().enumerate() {
@@ -202,44 +226,45 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
         let before = self.used_links;
         for octant in &mut cells {
-            if !self.distribute(&cell, count, octant) {
+            if !self.distribute(&cell, octant) {
                 self.used_links = before;
-                return Split::Full;
+                return (cell, Split::Full);
             }
         }
         let mut parts = 8;
         if self.variant == Variant::Modified {
-            let all = |octant: &Octant<S::Plane>| (octant.count & !LEAF) as usize == count;
-            let none = |octant: &Octant<S::Plane>| octant.count == LEAF;
-            if cells.iter().all(|octant| all(octant) || none(octant))
-                && cells.iter().filter(|c| all(c)).count() > 1
-            {
+            let all = |octant: &&Octant<S::Plane>| octant.count == cell.count;
+            let some = cells.iter().filter(|octant| octant.count() > 0);
+            if some.clone().all(|octant| all(&octant)) && some.count() > 1 {
                 self.used_links = before;
-                return Split::Futile;
+                return (cell, Split::Futile);
             }
             parts = merge(&mut cells);
         }
-        let Some(room) = self.nodes.get_mut(self.used_nodes..self.used_nodes + parts) else {
+        let end = self.used_nodes + parts;
+        let Some(room) = self.nodes.get_mut(self.used_nodes..end) else {
             self.used_links = before;
-            return Split::Full;
+            return (cell, Split::Full);
         };
-        room.copy_from_slice(&cells[..parts]);
-        self.nodes[node].first = self.used_nodes as u32;
-        self.nodes[node].count = parts as u32;
-        self.used_nodes += parts;
-        Split::Done
+        for (place, octant) in room.iter_mut().zip(cells) {
+            *place = octant;
+        }
+        let inner = Octant {
+            first: self.used_nodes as u32,
+            count: parts as u32,
+            ..cell
+        };
+        self.used_nodes = end;
+        (inner, Split::Done)
     }
 
     /// Links into an octant those of its cell's objects that touch it. False if there is no room.
-    fn distribute(
-        &mut self,
-        cell: &Octant<S::Plane>,
-        count: usize,
-        octant: &mut Octant<S::Plane>,
-    ) -> bool {
+    fn distribute(&mut self, cell: &Octant<S::Plane>, octant: &mut Octant<S::Plane>) -> bool {
         octant.first = self.used_links as u32;
-        for i in 0..count {
-            let object = self.links[cell.first as usize + i];
+        for i in 0..cell.count() {
+            let Some(&object) = self.links.get((cell.first + i) as usize) else {
+                break;
+            };
             if touches(self.shapes, object, &octant.bounds, self.link) {
                 let Some(place) = self.links.get_mut(self.used_links) else {
                     return false;
@@ -265,31 +290,36 @@ enum Split {
 /// three empty ones; the first axis along which a half qualifies is taken. Returns how many cells
 /// are left; they come first.
 fn merge<P: Plane>(cells: &mut [Octant<P>; 8]) -> usize {
-    let empty = |octant: &Octant<P>| octant.count == LEAF;
     for bit in 0..3 {
+        let half =
+            |side: usize| (cells.iter().enumerate()).filter(move |(k, _)| k >> bit & 1 == side);
+        let lone = |side| half(side).filter(|(_, octant)| octant.count() > 0).count() <= 1;
+        if !lone(0) && !lone(1) {
+            continue;
+        }
         let mut merged = [Octant::EMPTY; 8];
+        let mut places = merged.iter_mut();
         let mut parts = 0;
         for side in 0..2 {
-            let half = || (0..8usize).filter(move |k| k >> bit & 1 == side);
-            let full = half().filter(|&k| !empty(&cells[k])).count();
-            if full <= 1 {
-                let holder = half().find(|&k| !empty(&cells[k])).unwrap_or(side << bit);
-                merged[parts] = Octant {
-                    bounds: half().fold(build::nothing(), |a, k| build::union(a, cells[k].bounds)),
-                    ..cells[holder]
-                };
-                parts += 1;
+            if lone(side) {
+                let holder = half(side).find(|(_, octant)| octant.count() > 0);
+                let all = half(side).fold(build::nothing(), |a, (_, octant)| {
+                    build::union(a, octant.bounds)
+                });
+                if let Some(place) = places.next() {
+                    *place = holder.map_or(Octant::EMPTY, |(_, octant)| *octant);
+                    place.bounds = all;
+                    parts += 1;
+                }
             } else {
-                for k in half() {
-                    merged[parts] = cells[k];
+                for (octant, place) in half(side).zip(places.by_ref()) {
+                    *place = *octant.1;
                     parts += 1;
                 }
             }
         }
-        if parts < 8 {
-            *cells = merged;
-            return parts;
-        }
+        *cells = merged;
+        return parts;
     }
     8
 }
@@ -329,10 +359,11 @@ impl<P: Plane> Octants<'_, P> {
             return;
         }
         stack.0[0] = (0, P::ZERO);
-        let mut waiting = 1;
+        // At most seven parts of each level wait: a `u8` counts them, see `STACK`.
+        let mut waiting = 1u8;
         while waiting > 0 {
             waiting -= 1;
-            let (place, entry) = stack.0[waiting];
+            let (place, entry) = stack.0[usize::from(waiting)];
             if entry > search.limit.plane() {
                 continue;
             }
@@ -340,30 +371,27 @@ impl<P: Plane> Octants<'_, P> {
                 continue;
             };
             search.observer.step();
-            if node.count & LEAF != 0 {
-                let start = node.first as usize;
-                let end = start + (node.count & !LEAF) as usize;
-                if search.list(self.links.get(start..end).unwrap_or(&[])) {
+            let start = node.first as usize;
+            let end = start + node.count() as usize;
+            if node.is_leaf() {
+                if search.list(self.links.get(start..end).unwrap_or_default()) {
                     return;
                 }
                 continue;
             }
             let base = waiting;
-            for place in node.first..node.first + node.count {
-                let Some(part) = self.nodes.get(place as usize) else {
+            let parts = self.nodes.get(start..end).unwrap_or_default();
+            for (part, place) in parts.iter().zip(node.first..) {
+                let Some(entry) = enter(part, search.limit.plane()) else {
                     continue;
                 };
-                if let Some(entry) = enter(part, search.limit.plane())
-                    && waiting < STACK
-                {
-                    let mut at = waiting;
-                    while at > base && stack.0[at - 1].1 < entry {
-                        stack.0[at] = stack.0[at - 1];
-                        at -= 1;
-                    }
-                    stack.0[at] = (place, entry);
-                    waiting += 1;
+                let mut at = waiting;
+                while at > base && stack.0[usize::from(at - 1)].1 < entry {
+                    stack.0[usize::from(at)] = stack.0[usize::from(at - 1)];
+                    at -= 1;
                 }
+                stack.0[usize::from(at)] = (place, entry);
+                waiting = waiting.wrapping_add(1);
             }
         }
     }

@@ -47,6 +47,13 @@ impl<P: Plane> Node<P> {
         children: [0; WIDTH],
     };
 
+    /// A node that is still to be split.
+    fn waiting(start: usize, end: usize, depth: u32) -> Self {
+        let mut node = Self::EMPTY;
+        node.children[..3].copy_from_slice(&[start as u32, end as u32, depth]);
+        node
+    }
+
     fn set(&mut self, child: usize, bounds: &Bounds<P>, word: u32) {
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
             self.planes[i][child] = bounds.low[axis].below();
@@ -86,8 +93,7 @@ struct Group<P> {
 
 impl<P: Plane> Group<P> {
     fn of(start: usize, end: usize, boxes: &[Bounds<P>]) -> Self {
-        let bounds = boxes[start..end]
-            .iter()
+        let bounds = (boxes.get(start..end).unwrap_or_default().iter())
             .fold(build::nothing(), |a, b| build::union(a, *b));
         Self { start, end, bounds }
     }
@@ -120,9 +126,9 @@ impl<'a, P: Plane> Tight<'a, P> {
         let links = links.get_mut(..count).ok_or(too_small)?;
         let boxes = boxes.get_mut(..count).ok_or(too_small)?;
         *nodes.first_mut().ok_or(too_small)? = Node::EMPTY;
-        for (i, object) in shapes.refs().enumerate() {
-            links[i] = object;
-            boxes[i] = build::planes(shapes.bounds(object));
+        for ((link, bounds), object) in links.iter_mut().zip(&mut *boxes).zip(shapes.refs()) {
+            *link = object;
+            *bounds = build::planes(shapes.bounds(object));
         }
         let mut summary = Summary {
             links: count as u32,
@@ -135,7 +141,7 @@ impl<'a, P: Plane> Tight<'a, P> {
         };
         Ok((
             Self {
-                nodes: &nodes[..used],
+                nodes: nodes.get(..used).unwrap_or_default(),
                 links,
             },
             summary,
@@ -154,29 +160,38 @@ fn grow<P: Plane>(
 ) -> usize {
     let leaf_size = options.leaf_size.max(1) as usize;
     let deepest = options.depth.clamp(1, MAX_DEPTH);
-    nodes[0].children[..3].copy_from_slice(&[0, links.len() as u32, 1]);
+    if let Some(root) = nodes.first_mut() {
+        *root = Node::waiting(0, links.len(), 1);
+    }
     let (mut done, mut used) = (0, 1);
     while done < used {
-        let [start, end, depth, ..] = nodes[done].children;
-        nodes[done] = Node::EMPTY;
+        let Some(&waiting) = nodes.get(done) else {
+            break;
+        };
+        let [start, end, depth, ..] = waiting.children;
         summary.inner += 1;
         summary.depth = summary.depth.max(depth);
+        let mut node = Node::EMPTY;
         let (groups, count) = split(start as usize, end as usize, links, boxes, leaf_size);
-        for (child, group) in groups[..count].iter().enumerate() {
+        for (child, group) in groups.iter().enumerate().take(count) {
             let fits = group.len() <= leaf_size;
-            let word = if !fits && used < nodes.len() && depth < deepest {
-                nodes[used] = Node::EMPTY;
-                let range = [group.start as u32, group.end as u32, depth + 1];
-                nodes[used].children[..3].copy_from_slice(&range);
+            let room = nodes.get_mut(used).filter(|_| !fits && depth < deepest);
+            let word = if let Some(room) = room {
+                *room = Node::waiting(group.start, group.end, depth + 1);
                 used += 1;
                 used as u32 - 1
             } else {
                 summary.leaves += 1;
                 summary.unsplit += u32::from(!fits && depth < deepest);
-                links[group.end - 1] = links[group.end - 1].marked_last(true);
+                if let Some(last) = links.get_mut(group.end.wrapping_sub(1)) {
+                    *last = last.marked_last(true);
+                }
                 Word::LEAF | group.start as u32
             };
-            nodes[done].set(child, &group.bounds, word);
+            node.set(child, &group.bounds, word);
+        }
+        if let Some(place) = nodes.get_mut(done) {
+            *place = node;
         }
         done += 1;
     }
@@ -196,26 +211,37 @@ fn split<P: Plane>(
     let mut count = 1;
     while count < WIDTH {
         let mut largest: Option<(P::Area, usize)> = None;
-        for (i, group) in groups[..count].iter().enumerate() {
+        for (i, group) in groups.iter().enumerate().take(count) {
             let area = P::half_area(build::sides(&group.bounds));
             if group.len() > leaf_size && largest.is_none_or(|(a, _)| area > a) {
                 largest = Some((area, i));
             }
         }
         let Some((_, i)) = largest else { break };
-        let Group { start, end, .. } = groups[i];
-        let middle = start + build::part(&mut boxes[start..end], &mut links[start..end]);
-        groups[i] = Group::of(start, middle, boxes);
+        let Some(group) = groups.get_mut(i) else {
+            break;
+        };
+        let Group { start, end, .. } = *group;
+        let (Some(some_boxes), Some(some_links)) =
+            (boxes.get_mut(start..end), links.get_mut(start..end))
+        else {
+            break;
+        };
+        let middle = start + build::part(some_boxes, some_links);
+        *group = Group::of(start, middle, boxes);
         groups[count] = Group::of(middle, end, boxes);
         count += 1;
     }
     // A search for any hit tries the children in this order: the largest is the likeliest.
-    groups[..count].sort_unstable_by(|a, b| {
-        let area = |group: &Group<P>| P::half_area(build::sides(&group.bounds));
-        area(b)
-            .partial_cmp(&area(a))
-            .unwrap_or(core::cmp::Ordering::Equal)
-    });
+    groups
+        .get_mut(..count)
+        .unwrap_or_default()
+        .sort_unstable_by(|a, b| {
+            let area = |group: &Group<P>| P::half_area(build::sides(&group.bounds));
+            area(b)
+                .partial_cmp(&area(a))
+                .unwrap_or(core::cmp::Ordering::Equal)
+        });
     (groups, count)
 }
 
