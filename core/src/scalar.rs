@@ -77,6 +77,11 @@ pub trait Scalar:
         self.scaled(divisor.reciprocal())
     }
 
+    /// Whether `numerator / divisor`, both ≥ 0, is certain to come out above `limit`: an answer
+    /// without the division. Never true where [`Scalar::quotient`] gives `limit` or less, or what
+    /// is found would depend on the order of the search.
+    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool;
+
     /// The reciprocal of a whole number, 1 ≤ `n` < 2³¹, for [`Scalar::ratio`].
     fn whole_reciprocal(n: u32) -> Self::Reciprocal;
 

@@ -121,6 +121,11 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
+    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn whole_reciprocal(n: u32) -> f32 {
         1.0 / n as f32
     }

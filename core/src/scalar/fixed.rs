@@ -223,6 +223,13 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         Self(reciprocal.divide(self.0))
     }
 
+    // The quotient's relative error is below 2⁻²⁸, its rounding below one step.
+    #[inline(always)]
+    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
+        let limit = i64::from(limit.0) + i64::from(limit.0 >> 24) + 4;
+        i64::from(numerator.0) << F > i64::from(divisor.0) * limit
+    }
+
     #[inline(always)]
     fn whole_reciprocal(n: u32) -> Reciprocal {
         // A quotient of two numbers of the same scaling does not depend on the scaling.

@@ -50,6 +50,12 @@ macro_rules! float {
                 self / divisor
             }
 
+            // A division costs no more than the question.
+            #[inline(always)]
+            fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+                false
+            }
+
             #[inline(always)]
             fn whole_reciprocal(n: u32) -> Self {
                 1.0 / (n as $t)

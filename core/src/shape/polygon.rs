@@ -19,8 +19,8 @@ pub struct Flat<S> {
 }
 
 impl<S: Scalar> Flat<S> {
-    /// Thesis (2.4), with the plane's offset that it lacks. The distance is compared with the
-    /// limit before the division: along a nearly parallel ray the quotient has no bound.
+    /// Thesis (2.4), with the plane's offset that it lacks. Along a nearly parallel ray the quotient
+    /// has no bound: it saturates, which is beyond every limit.
     #[inline(always)]
     fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
         let above = S::narrow(S::product(self.offset, S::ONE) - self.normal.dot_wide(ray.origin));
@@ -30,7 +30,7 @@ impl<S: Scalar> Flat<S> {
         } else {
             (above, rise)
         };
-        if above <= S::ZERO || S::product(above, S::ONE) > S::product(rise, limit) {
+        if above <= S::ZERO || S::surely_exceeds(above, rise, limit) {
             return None;
         }
         let t = above.quotient(rise);

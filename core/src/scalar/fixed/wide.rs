@@ -119,6 +119,11 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
+    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+        false
+    }
+
+    #[inline(always)]
     fn whole_reciprocal(n: u32) -> Self {
         Self(i64::from(n))
     }
