@@ -8,14 +8,16 @@
 //! | [`vec3`], [`ray`] | vectors, rays, boxes |
 //! | [`shape`] | spheres, cones, boxes, polygons: where a ray meets them, and their surface there |
 //! | [`scene`], [`camera`] | slices of shapes, surfaces and lights; where rays start |
+//! | [`needs`] | what a scene does without, so that no code for it is linked |
 //! | [`octree`] | which shapes a ray has to be tested against: three trees in lent memory, or none |
 //! | [`packet`] | a picture, its active region, and the rows that one thread renders |
 //! | [`trace`], `shade` | Whitted's recursion on a bounded stack; the light of a surface |
 //! | [`observe`] | who counts rays, steps and tests, at no cost if nobody does |
 #![no_std]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod camera;
+pub mod needs;
 pub mod observe;
 pub mod octree;
 pub mod packet;

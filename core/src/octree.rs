@@ -25,6 +25,7 @@ pub use packed::{PACKED_STACK, Packed, PackedStack};
 pub use plane::{Faces, Plane, Slope};
 pub use tight::{Node, Tight, TightMemory};
 
+use crate::needs::{EVERYTHING, Needs};
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -55,7 +56,7 @@ impl<P: Plane> Default for Stack<P> {
 }
 
 /// Finds what rays meet.
-pub trait Accelerator<S: Scalar>: Sync {
+pub trait Accelerator<S: Scalar, const NEEDS: Needs = EVERYTHING>: Sync {
     /// The nodes that wait while it is walked. Lent, since clearing it for each ray would cost
     /// more than the walk.
     type Stack: Default + Send;
@@ -63,7 +64,7 @@ pub trait Accelerator<S: Scalar>: Sync {
     /// The first object that the ray meets at t > 0.
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         stack: &mut Self::Stack,
         observer: &mut O,
@@ -72,7 +73,7 @@ pub trait Accelerator<S: Scalar>: Sync {
     /// Any object that the ray meets at 0 < t ≤ `limit`.
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
         stack: &mut Self::Stack,

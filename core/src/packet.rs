@@ -1,6 +1,7 @@
 //! A picture and its parts: which pixels are worth a ray, and the rows that one thread renders.
 
 use crate::camera::Camera;
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::octree::Accelerator;
 use crate::scalar::Scalar;
@@ -19,16 +20,29 @@ pub struct Region {
 
 /// A picture to be rendered.
 #[derive(Clone, Debug)]
-pub struct Frame<S: Scalar> {
-    camera: Camera<S>,
-    active: Region,
-    block: u32,
-    samples: u32,
-    width: u32,
-    height: u32,
-    across: S::Reciprocal,
-    down: S::Reciprocal,
-    share: S,
+pub struct Frame<S: Scalar>(Parts<S>);
+
+/// What a [`Frame`] consists of, to be written down and read back.
+#[derive(Clone, Debug)]
+pub struct Parts<S: Scalar> {
+    /// Where rays start.
+    pub camera: Camera<S>,
+    /// The pixels that rays are sent through.
+    pub active: Region,
+    /// The side of the square of pixels that one ray colours, 1 or 2.
+    pub block: u32,
+    /// Rays per pixel in each direction, 1 to 255.
+    pub samples: u32,
+    /// Columns, 1 to 65535.
+    pub width: u32,
+    /// Rows, 1 to 65535.
+    pub height: u32,
+    /// The reciprocal of samples · width.
+    pub across: S::Reciprocal,
+    /// The reciprocal of samples · height.
+    pub down: S::Reciprocal,
+    /// The weight of one of the samples, 1/samples².
+    pub share: S,
 }
 
 impl<S: Scalar> Frame<S> {
@@ -48,7 +62,7 @@ impl<S: Scalar> Frame<S> {
         let (width, height) = (width.clamp(1, 65_535), height.clamp(1, 65_535));
         let samples = samples.clamp(1, 255);
         let whole = S::whole_reciprocal(samples * samples);
-        Self {
+        Self(Parts {
             camera,
             active: Region {
                 columns: active.columns.start..active.columns.end.min(width),
@@ -61,67 +75,81 @@ impl<S: Scalar> Frame<S> {
             across: S::whole_reciprocal(samples * width),
             down: S::whole_reciprocal(samples * height),
             share: S::ratio(1, whole),
-        }
+        })
+    }
+
+    /// The picture that [`Frame::parts`] came from.
+    pub const fn from_parts(parts: Parts<S>) -> Self {
+        Self(parts)
+    }
+
+    /// All there is to know of it.
+    pub const fn parts(&self) -> &Parts<S> {
+        &self.0
     }
 
     /// The pixels that rays are sent through.
     pub const fn active(&self) -> &Region {
-        &self.active
+        &self.0.active
     }
 
     /// The side of the square of pixels that one ray colours.
     pub const fn block(&self) -> u32 {
-        self.block
+        self.0.block
     }
 
     /// Renders the active pixels of some rows, and hands each to `put` with its column, its row
     /// and its colour in [0, 1]. Blocks that begin above the rows are not rendered.
-    pub fn render<A: Accelerator<S>, O: Observer>(
+    pub fn render<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
         &self,
         rows: Range<u32>,
-        tracer: &Tracer<'_, S, A>,
+        tracer: &Tracer<'_, S, A, NEEDS>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
         mut put: impl FnMut(u32, u32, Vec3<S>),
     ) {
         workspace.forget();
-        let rows = rows.start.max(self.active.rows.start)..rows.end.min(self.active.rows.end);
-        let columns = self.active.columns.clone();
-        let starts = |range: &Range<u32>| {
-            (range.start.next_multiple_of(self.block)..range.end).step_by(self.block as usize)
-        };
-        for row in starts(&rows) {
-            for column in starts(&columns) {
+        let rows = rows.start.max(self.0.active.rows.start)..rows.end.min(self.0.active.rows.end);
+        let columns = self.0.active.columns.clone();
+        // 1 or 2; anything else must not stop the picture.
+        let block = self.0.block.clamp(1, 2);
+        let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
+        let mut row = first(&rows);
+        while row < rows.end {
+            let mut column = first(&columns);
+            while column < columns.end {
                 let colour = self.colour(column, row, tracer, workspace, observer);
-                for y in row..(row + self.block).min(rows.end) {
-                    for x in column..(column + self.block).min(columns.end) {
+                for y in row..(row + block).min(rows.end) {
+                    for x in column..(column + block).min(columns.end) {
                         put(x, y, colour);
                     }
                 }
+                column += block;
             }
+            row += block;
         }
     }
 
     /// The colour of the block whose upper left pixel is given.
     #[inline(always)]
-    fn colour<A: Accelerator<S>, O: Observer>(
+    fn colour<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
         &self,
         column: u32,
         row: u32,
-        tracer: &Tracer<'_, S, A>,
+        tracer: &Tracer<'_, S, A, NEEDS>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Vec3<S> {
-        if self.samples == 1 {
+        if self.0.samples == 1 {
             let (x, y) = self.place(column, row, 0, 0);
-            return clamp(tracer.radiance(self.camera.ray(x, y), workspace, observer));
+            return clamp(tracer.radiance(self.0.camera.ray(x, y), workspace, observer));
         }
         let mut sum = Vec3::ZERO;
-        for sub_row in 0..self.samples {
-            for sub_column in 0..self.samples {
+        for sub_row in 0..self.0.samples {
+            for sub_column in 0..self.0.samples {
                 let (x, y) = self.place(column, row, sub_column, sub_row);
-                let colour = tracer.radiance(self.camera.ray(x, y), workspace, observer);
-                sum = sum + clamp(colour) * self.share;
+                let colour = tracer.radiance(self.0.camera.ray(x, y), workspace, observer);
+                sum = sum + clamp(colour) * self.0.share;
             }
         }
         clamp(sum)
@@ -132,16 +160,19 @@ impl<S: Scalar> Frame<S> {
     pub fn place(&self, column: u32, row: u32, sub_column: u32, sub_row: u32) -> (S, S) {
         // In units of a 2·samples-th of a pixel, from the upper left corner: twice the block's
         // start, and the middle of the sub-cell.
-        let at = |start: u32, sub: u32| 2 * self.samples * start + self.block * (2 * sub + 1);
-        let (width, height) = (self.samples * self.width, self.samples * self.height);
+        let at = |start: u32, sub: u32| 2 * self.0.samples * start + self.0.block * (2 * sub + 1);
+        let (width, height) = (
+            self.0.samples * self.0.width,
+            self.0.samples * self.0.height,
+        );
         let x = at(column, sub_column) as i32 - width as i32;
         let y = height as i32 - at(row, sub_row) as i32;
-        (S::ratio(x, self.across), S::ratio(y, self.down))
+        (S::ratio(x, self.0.across), S::ratio(y, self.0.down))
     }
 
     /// The camera.
     pub const fn camera(&self) -> &Camera<S> {
-        &self.camera
+        &self.0.camera
     }
 }
 

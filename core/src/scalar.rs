@@ -13,10 +13,11 @@
 mod approx;
 mod fixed;
 mod float;
+mod root;
 
 pub use approx::Approx;
 pub(crate) use fixed::reciprocal_q30;
-pub use fixed::{Fixed, Fixed64, reset_saturations, saturations};
+pub use fixed::{Fixed, Fixed64, Reciprocal, reset_saturations, saturations};
 
 use crate::octree::{Plane, Slope};
 use core::fmt::Debug;

@@ -1,5 +1,6 @@
 //! A scene in the arithmetic it is rendered in: slices that somebody else owns, in memory or flash.
 
+use crate::needs::{EVERYTHING, Needs};
 use crate::scalar::{Exponent, Scalar};
 use crate::shape::{Kind, ObjectRef, Shapes};
 use crate::vec3::Vec3;
@@ -8,10 +9,12 @@ use crate::vec3::Vec3;
 /// all shapes, lights and viewpoints is at the origin, and their largest distance, `reach`, is at
 /// most ⅔ of [`Scalar::MAX`], so that every point a ray comes to within its reach has coordinates
 /// in range.
+///
+/// What a scene has none of is not in the machine code if `NEEDS` leaves it out.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S: Scalar> {
+pub struct Scene<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
     /// The geometry.
-    pub shapes: Shapes<'a, S>,
+    pub shapes: Shapes<'a, S, NEEDS>,
     /// Who and of what surface each object is, kind by kind in the order of [`Kind`].
     pub attributes: &'a [Attributes],
     /// Where each kind begins in `attributes`.
@@ -76,7 +79,7 @@ pub struct Light<S> {
     pub colour: Vec3<S>,
 }
 
-impl<S: Scalar> Scene<'_, S> {
+impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {
     /// An object's attributes.
     #[inline(always)]
     pub fn attributes_of(&self, object: ObjectRef) -> Attributes {
@@ -89,7 +92,7 @@ impl<S: Scalar> Scene<'_, S> {
     }
 
     /// Where each kind begins in the attributes of a scene with these shapes.
-    pub fn first_of(shapes: &Shapes<'_, S>) -> [u32; 5] {
+    pub fn first_of(shapes: &Shapes<'_, S, NEEDS>) -> [u32; 5] {
         let mut first = [0; 5];
         let mut sum = 0;
         for kind in Kind::ALL {

@@ -1,9 +1,10 @@
 //! The light that a surface sends back by itself: ambient, diffuse and specular (thesis 3.2).
 
+use crate::needs::{self, Needs};
 use crate::observe::{Observer, RayKind};
 use crate::octree::Accelerator;
 use crate::ray::Ray;
-use crate::scalar::Scalar;
+use crate::scalar::{Exponent, Scalar};
 use crate::scene::{Scene, Surface};
 use crate::shape::{Contact, ObjectRef};
 use crate::vec3::Vec3;
@@ -41,8 +42,8 @@ impl<S: Scalar> Point<S> {
 /// The sum over all lights. `blockers` remembers for each light what blocked it last: most of the
 /// time the same object blocks it again, and one test finds that out.
 #[inline(always)]
-pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
-    scene: &Scene<'_, S>,
+pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+    scene: &Scene<'_, S, NEEDS>,
     accelerator: &A,
     surface: &Surface<S>,
     point: &Point<S>,
@@ -51,6 +52,9 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
     observer: &mut O,
 ) -> Vec3<S> {
     let mut sum = surface.ambient;
+    if !needs::needs(NEEDS, needs::SHADOWS) {
+        return sum;
+    }
     for (i, light) in scene.lights.iter().enumerate() {
         let (to_light, distance) = (light.position - point.contact.point).unit();
         let facing = point.normal.dot(to_light);
@@ -75,9 +79,17 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
             continue;
         }
         let mut share = surface.diffuse * facing;
-        if surface.specular != Vec3::ZERO {
+        if needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO {
+            let exponent = if needs::needs(NEEDS, needs::FRACTIONS) {
+                surface.shine
+            } else {
+                Exponent {
+                    fraction: S::ZERO,
+                    ..surface.shine
+                }
+            };
             let glance = point.mirror.dot(to_light);
-            let shine = glance.max(S::ZERO).power(surface.shine);
+            let shine = glance.max(S::ZERO).power(exponent);
             share = share + surface.specular * shine;
         }
         sum = sum + light.colour.times(share);

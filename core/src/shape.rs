@@ -15,6 +15,7 @@ pub(crate) use polygon::encloses;
 pub use polygon::{Bands, Flat, Outlines, Patch, Polygon, Triangle};
 pub use sphere::Sphere;
 
+use crate::needs::{self, EVERYTHING, Needs};
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::{Vec3, vec3};
@@ -95,9 +96,9 @@ impl ObjectRef {
     }
 }
 
-/// All shapes of a scene, by kind.
+/// All shapes of a scene, by kind. Kinds that `NEEDS` leaves out are never looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct Shapes<'a, S: Scalar> {
+pub struct Shapes<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
     /// Spheres.
     pub spheres: &'a [Sphere<S>],
     /// Polygons of three vertices.
@@ -131,7 +132,7 @@ pub struct Contact<S> {
     pub closed: bool,
 }
 
-impl<S: Scalar> Shapes<'_, S> {
+impl<S: Scalar, const NEEDS: Needs> Shapes<'_, S, NEEDS> {
     /// Every object, kind by kind.
     pub fn refs(&self) -> impl Iterator<Item = ObjectRef> + '_ {
         Kind::ALL.into_iter().flat_map(|kind| {
@@ -160,16 +161,49 @@ impl<S: Scalar> Shapes<'_, S> {
         }
     }
 
+    #[inline(always)]
+    fn sphere(&self, i: usize) -> Option<&Sphere<S>> {
+        needed::<_, NEEDS>(needs::SPHERES, self.spheres).get(i)
+    }
+
+    #[inline(always)]
+    fn triangle(&self, i: usize) -> Option<&Triangle<S>> {
+        needed::<_, NEEDS>(needs::TRIANGLES, self.triangles).get(i)
+    }
+
+    #[inline(always)]
+    fn polygon(&self, i: usize) -> Option<&Polygon<S>> {
+        needed::<_, NEEDS>(needs::POLYGONS, self.polygons).get(i)
+    }
+
+    #[inline(always)]
+    fn cone(&self, i: usize) -> Option<&Cone<S>> {
+        needed::<_, NEEDS>(needs::CONES, self.cones).get(i)
+    }
+
+    #[inline(always)]
+    fn cuboid(&self, i: usize) -> Option<&Cuboid<S>> {
+        needed::<_, NEEDS>(needs::CUBOIDS, self.cuboids).get(i)
+    }
+
+    #[inline(always)]
+    const fn outlines(&self) -> Outlines<'_, S> {
+        Outlines {
+            bands: needed::<_, NEEDS>(needs::BANDS, self.outlines.bands),
+            ..self.outlines
+        }
+    }
+
     /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`.
     #[inline(always)]
     pub fn hit(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         let i = object.index();
         match object.kind() {
-            Kind::Sphere => self.spheres.get(i)?.hit(ray, limit, self.slack),
-            Kind::Triangle => self.triangles.get(i)?.hit(ray, limit),
-            Kind::Polygon => self.polygons.get(i)?.hit(ray, limit, &self.outlines),
-            Kind::Cone => self.cones.get(i)?.hit(ray, limit),
-            Kind::Cuboid => self.cuboids.get(i)?.hit(ray, limit, self.slack),
+            Kind::Sphere => self.sphere(i)?.hit(ray, limit, self.slack),
+            Kind::Triangle => self.triangle(i)?.hit(ray, limit),
+            Kind::Polygon => self.polygon(i)?.hit(ray, limit, &self.outlines()),
+            Kind::Cone => self.cone(i)?.hit(ray, limit),
+            Kind::Cuboid => self.cuboid(i)?.hit(ray, limit, self.slack),
         }
     }
 
@@ -184,11 +218,11 @@ impl<S: Scalar> Shapes<'_, S> {
     pub fn bounds(&self, object: ObjectRef) -> Bounds<S> {
         let i = object.index();
         let bounds = match object.kind() {
-            Kind::Sphere => self.spheres.get(i).map(|s| s.bounds(self.slack)),
-            Kind::Triangle => self.triangles.get(i).map(Triangle::bounds),
-            Kind::Polygon => self.polygons.get(i).map(|p| p.bounds),
-            Kind::Cone => self.cones.get(i).map(|c| c.bounds),
-            Kind::Cuboid => self.cuboids.get(i).map(|c| c.bounds(self.slack)),
+            Kind::Sphere => self.sphere(i).map(|s| s.bounds(self.slack)),
+            Kind::Triangle => self.triangle(i).map(Triangle::bounds),
+            Kind::Polygon => self.polygon(i).map(|p| p.bounds),
+            Kind::Cone => self.cone(i).map(|c| c.bounds),
+            Kind::Cuboid => self.cuboid(i).map(|c| c.bounds(self.slack)),
         };
         bounds.unwrap_or_default()
     }
@@ -198,11 +232,11 @@ impl<S: Scalar> Shapes<'_, S> {
     pub fn contact(&self, object: ObjectRef, ray: &Ray<S>, t: S) -> Contact<S> {
         let i = object.index();
         let contact = match object.kind() {
-            Kind::Sphere => self.spheres.get(i).map(|s| s.contact(ray.at(t))),
-            Kind::Triangle => self.triangles.get(i).map(|p| p.plane.contact(ray.at(t))),
-            Kind::Polygon => self.polygons.get(i).map(|p| p.plane.contact(ray.at(t))),
-            Kind::Cone => self.cones.get(i).map(|c| c.contact(ray.at(t))),
-            Kind::Cuboid => self.cuboids.get(i).map(|c| c.contact(ray, t)),
+            Kind::Sphere => self.sphere(i).map(|s| s.contact(ray.at(t))),
+            Kind::Triangle => self.triangle(i).map(|p| p.plane.contact(ray.at(t))),
+            Kind::Polygon => self.polygon(i).map(|p| p.plane.contact(ray.at(t))),
+            Kind::Cone => self.cone(i).map(|c| c.contact(ray.at(t))),
+            Kind::Cuboid => self.cuboid(i).map(|c| c.contact(ray, t)),
         };
         contact.unwrap_or(Contact {
             point: ray.at(t),
@@ -214,10 +248,10 @@ impl<S: Scalar> Shapes<'_, S> {
 
     /// The interpolated unit normal of patch `patch` at a point of `object`.
     pub fn patch_normal(&self, object: ObjectRef, patch: u32, point: Vec3<S>) -> Option<Vec3<S>> {
-        let patch = self.patches.get(patch as usize)?;
+        let patch = needed::<_, NEEDS>(needs::PATCHES, self.patches).get(patch as usize)?;
         match object.kind() {
             Kind::Triangle => {
-                let triangle = self.triangles.get(object.index())?;
+                let triangle = self.triangle(object.index())?;
                 patch.normal(
                     triangle.plane.project(point),
                     &triangle.corners,
@@ -225,12 +259,22 @@ impl<S: Scalar> Shapes<'_, S> {
                 )
             }
             Kind::Polygon => {
-                let polygon = self.polygons.get(object.index())?;
+                let polygon = self.polygon(object.index())?;
                 let corners = polygon.corners(self.outlines.corners)?;
                 patch.normal(polygon.plane.project(point), corners, self.normals)
             }
             _ => None,
         }
+    }
+}
+
+/// The things, or none of them if they are not needed: then what is done with them is not compiled.
+#[inline(always)]
+const fn needed<T, const NEEDS: Needs>(what: Needs, things: &[T]) -> &[T] {
+    if needs::needs(NEEDS, what) {
+        things
+    } else {
+        &[]
     }
 }
 

@@ -1,5 +1,6 @@
 //! Whitted's recursion, unrolled onto a bounded stack.
 
+use crate::needs::{self, EVERYTHING, Needs};
 use crate::observe::{Observer, RayKind};
 use crate::octree::{Accelerator, Hit};
 use crate::ray::Ray;
@@ -52,9 +53,9 @@ impl<S, K> Workspace<'_, S, K> {
 
 /// What is traced, and how far.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a, S: Scalar, A> {
+pub struct Tracer<'a, S: Scalar, A, const NEEDS: Needs = EVERYTHING> {
     /// The scene.
-    pub scene: &'a Scene<'a, S>,
+    pub scene: &'a Scene<'a, S, NEEDS>,
     /// What finds its objects.
     pub accelerator: &'a A,
     /// The most bounces; what the workspace has no room for is not traced either.
@@ -63,7 +64,7 @@ pub struct Tracer<'a, S: Scalar, A> {
     pub cut_off: S,
 }
 
-impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
+impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, NEEDS> {
     /// The light that comes along a ray of the camera, not clamped (fixed point: at most 1).
     pub fn radiance<O: Observer>(
         &self,
@@ -136,7 +137,8 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
             return Vec3::ZERO;
         };
         let mut normal = contact.outward;
-        if attributes.patch != Attributes::FLAT
+        if needs::needs(NEEDS, needs::PATCHES)
+            && attributes.patch != Attributes::FLAT
             && let Some(n) = scene
                 .shapes
                 .patch_normal(hit.object, attributes.patch, contact.point)
@@ -147,7 +149,10 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
         if against > S::ZERO {
             (normal, against) = (-normal, -against);
         }
-        let mirror = if surface.reflect > S::ZERO || surface.specular != Vec3::ZERO {
+        let reflects = needs::needs(NEEDS, needs::REFLECTION) && surface.reflect > S::ZERO;
+        let shines = needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO;
+        let refracts = needs::needs(NEEDS, needs::REFRACTION) && surface.refract > S::ZERO;
+        let mirror = if reflects || shines {
             (incoming - normal * (against + against)).unit().0
         } else {
             Vec3::ZERO
@@ -186,13 +191,15 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
                 observer.pending(*waiting);
             }
         };
-        if surface.refract > S::ZERO {
+        if refracts {
             let leaves = contact.closed && contact.outward.dot(incoming) > S::ZERO;
             let through = refract(surface, incoming, normal, -against, leaves);
             follow(surface.refract, through, RayKind::Transmitted);
         }
-        follow(surface.reflect, Some(point.mirror), RayKind::Reflected);
-        if surface.refract > S::ZERO {
+        if reflects {
+            follow(surface.reflect, Some(point.mirror), RayKind::Reflected);
+        }
+        if refracts {
             light * (S::ONE - surface.refract)
         } else {
             light

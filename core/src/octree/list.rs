@@ -2,6 +2,7 @@
 
 use super::search::Search;
 use super::{Accelerator, Hit};
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -12,18 +13,18 @@ use crate::shape::ObjectRef;
 #[derive(Clone, Copy, Debug)]
 pub struct List<'a>(pub &'a [ObjectRef]);
 
-impl<S: Scalar> Accelerator<S> for List<'_> {
+impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for List<'_> {
     type Stack = ();
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         (): &mut (),
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
+        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
         search.list(self.0);
         search.hit()
     }
@@ -31,13 +32,13 @@ impl<S: Scalar> Accelerator<S> for List<'_> {
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
         (): &mut (),
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);
+        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
         search.list(self.0);
         search.found
     }

@@ -6,6 +6,7 @@ use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
 use super::touch::touches;
 use super::{Accelerator, Hit, Plane, Slope, Stack};
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -327,9 +328,9 @@ fn merge<P: Plane>(cells: &mut [Octant<P>; 8]) -> usize {
 impl<P: Plane> Octants<'_, P> {
     /// Cells are visited in the order in which the ray enters them.
     #[inline(always)]
-    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool>(
+    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool, const NEEDS: Needs>(
         &self,
-        search: &mut Search<'_, S, O, ANY>,
+        search: &mut Search<'_, S, O, ANY, NEEDS>,
         stack: &mut Stack<P>,
     ) {
         let origin = search.ray.origin.map(S::plane);
@@ -404,18 +405,18 @@ impl<P: Plane> Octants<'_, P> {
     }
 }
 
-impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
+impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Octants<'_, S::Plane> {
     type Stack = Stack<S::Plane>;
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
+        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
         self.walk(&mut search, stack);
         search.hit()
     }
@@ -423,13 +424,13 @@ impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);
+        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
         self.walk(&mut search, stack);
         search.found
     }

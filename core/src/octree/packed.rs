@@ -15,6 +15,7 @@
 use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
 use super::search::Search;
 use super::{Accelerator, Hit};
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -64,8 +65,8 @@ impl<'a> Packed<'a> {
     /// # Errors
     /// If there is no room for one node of eight children, or for a link and a box for each
     /// object, or if there are 2¹⁵ objects or more: a child's word has no place for them.
-    pub fn build<S: Scalar>(
-        shapes: &Shapes<'_, S>,
+    pub fn build<S: Scalar, const NEEDS: Needs>(
+        shapes: &Shapes<'_, S, NEEDS>,
         words: &'a mut [u32],
         links: &'a mut [ObjectRef],
         boxes: &mut [Bounds<i32>],
@@ -370,9 +371,9 @@ fn ticks(grid: i32) -> i32 {
 
 impl Packed<'_> {
     #[inline(always)]
-    fn walk<S: Scalar, O: Observer, const ANY: bool>(
+    fn walk<S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs>(
         &self,
-        search: &mut Search<'_, S, O, ANY>,
+        search: &mut Search<'_, S, O, ANY, NEEDS>,
         stack: &mut PackedStack,
     ) {
         let reach = search.limit.grid();
@@ -431,18 +432,18 @@ impl Packed<'_> {
     }
 }
 
-impl<S: Scalar> Accelerator<S> for Packed<'_> {
+impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Packed<'_> {
     type Stack = PackedStack;
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         stack: &mut PackedStack,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
+        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
         self.walk(&mut search, stack);
         search.hit()
     }
@@ -450,13 +451,13 @@ impl<S: Scalar> Accelerator<S> for Packed<'_> {
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
         stack: &mut PackedStack,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);
+        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
         self.walk(&mut search, stack);
         search.found
     }

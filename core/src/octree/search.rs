@@ -1,6 +1,7 @@
 //! What every tree does with the objects it comes to.
 
 use super::Hit;
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -8,8 +9,8 @@ use crate::scene::Scene;
 use crate::shape::ObjectRef;
 
 /// A search for the first object a ray meets, or with `ANY` for any object nearer than the limit.
-pub(super) struct Search<'a, S: Scalar, O, const ANY: bool> {
-    pub(super) scene: &'a Scene<'a, S>,
+pub(super) struct Search<'a, S: Scalar, O, const ANY: bool, const NEEDS: Needs> {
+    pub(super) scene: &'a Scene<'a, S, NEEDS>,
     pub(super) ray: &'a Ray<S>,
     /// Nothing beyond this distance matters any more.
     pub(super) limit: S,
@@ -17,10 +18,10 @@ pub(super) struct Search<'a, S: Scalar, O, const ANY: bool> {
     pub(super) observer: &'a mut O,
 }
 
-impl<'a, S: Scalar, O: Observer, const ANY: bool> Search<'a, S, O, ANY> {
+impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a, S, O, ANY, NEEDS> {
     #[inline(always)]
     pub(super) fn new(
-        scene: &'a Scene<'a, S>,
+        scene: &'a Scene<'a, S, NEEDS>,
         ray: &'a Ray<S>,
         limit: S,
         observer: &'a mut O,

@@ -6,6 +6,7 @@
 use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
 use super::search::Search;
 use super::{Accelerator, Faces, Hit, Plane, Slope, Stack};
+use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
@@ -216,9 +217,9 @@ impl<P: Plane> Tight<'_, P> {
     /// The child entered first is gone on with directly, only the others go through the stack; its
     /// places are counted in a `u8`, which cannot leave its 256, so that no access is checked.
     #[inline(always)]
-    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool>(
+    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool, const NEEDS: Needs>(
         &self,
-        search: &mut Search<'_, S, O, ANY>,
+        search: &mut Search<'_, S, O, ANY, NEEDS>,
         stack: &mut Stack<P>,
     ) {
         let Some(mut node) = self.nodes.first() else {
@@ -284,19 +285,19 @@ impl<P: Plane> Tight<'_, P> {
     }
 }
 
-impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
+impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Tight<'_, S::Plane> {
     type Stack = Stack<S::Plane>;
 
     // One copy of the walk per use: inlined into the tracer it would not fit the code cache.
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
+        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
         self.walk(&mut search, stack);
         search.hit()
     }
@@ -304,13 +305,13 @@ impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S>,
+        scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
         stack: &mut Stack<S::Plane>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);
+        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
         self.walk(&mut search, stack);
         search.found
     }

@@ -106,6 +106,18 @@ pub struct Reciprocal {
 }
 
 impl Reciprocal {
+    /// A reciprocal from what [`Reciprocal::parts`] gave.
+    #[inline(always)]
+    pub const fn from_parts(mantissa: i32, shift: u8) -> Self {
+        Self { mantissa, shift }
+    }
+
+    /// The mantissa and the shift, to be written down.
+    #[inline(always)]
+    pub const fn parts(self) -> (i32, u8) {
+        (self.mantissa, self.shift)
+    }
+
     /// Of `raw` · 2⁻ᶠ, such that a raw number times it is a raw number again.
     #[inline(always)]
     fn new(raw: i32, fraction_bits: u32) -> Self {

@@ -1,6 +1,7 @@
-//! `f32` and `f64`: hardware or software floating point, with libm for the roots.
+//! `f32` and `f64`: hardware or software floating point, with libm for the roots
+//! but where an instruction takes them ([`root`]).
 
-use super::{Exponent, Quantize, Scalar};
+use super::{Exponent, Quantize, Scalar, root};
 use crate::octree::Slope;
 
 /// One definition of every operation for both widths.
@@ -147,7 +148,7 @@ macro_rules! float {
     };
 }
 
-float!(f32, libm::sqrtf, power_f32, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
+float!(f32, root::sqrt_f32, power_f32, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
 float!(f64, libm::sqrt, power_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
 
 impl Quantize for f32 {

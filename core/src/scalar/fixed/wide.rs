@@ -15,6 +15,18 @@ const F: u32 = 32;
 pub struct Fixed64(i64);
 
 impl Fixed64 {
+    /// The number with this bit pattern: `raw` · 2⁻³².
+    #[inline(always)]
+    pub const fn from_bits(raw: i64) -> Self {
+        Self(raw)
+    }
+
+    /// The bit pattern: the number times 2³².
+    #[inline(always)]
+    pub const fn to_bits(self) -> i64 {
+        self.0
+    }
+
     #[inline(always)]
     fn fit(raw: i128) -> Self {
         if raw != i128::from(raw as i64) {
