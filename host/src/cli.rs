@@ -3,12 +3,14 @@
 //! A command's arguments turn into a job that the command then runs; whatever is wrong with them is found
 //! here, before any work.
 
+mod bake;
 mod check;
 mod diff;
 mod generate;
 mod render;
 mod value;
 
+pub use bake::BakeArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
@@ -32,6 +34,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Read scenes, and tell what is in them or what is wrong with them
     Check(CheckArgs),
+    /// Turn a scene into constant tables for a program without files
+    Bake(BakeArgs),
     /// Generate a scene of any size
     Generate(GenerateArgs),
     /// Compare two pictures

@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@generate`], [`diff`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
@@ -10,6 +10,7 @@
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
 
+pub mod bake;
 pub mod check;
 pub mod cli;
 pub mod diff;
@@ -66,6 +67,7 @@ fn run(command: Command) -> Result<(), Error> {
     match command {
         Command::Render(args) => render::run(&args.job()?, &interrupt, trace::trace),
         Command::Check(args) => check::run(&args.scenes, &interrupt),
+        Command::Bake(args) => bake::run(&args.job()?, &interrupt),
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
     }

@@ -11,6 +11,7 @@
 //! | [`mod@generate`] | scenes of any size from a seed |
 //! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
 //! | [`tree`] | octrees of a quantised scene, in memory of their own |
+//! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 //!
 //! ```
@@ -23,6 +24,7 @@
 //! # Ok::<(), octray_scenes::diagnostic::Diagnostics>(())
 //! ```
 
+pub mod bake;
 pub mod check;
 pub mod diagnostic;
 pub mod generate;

@@ -1,0 +1,80 @@
+//! `octray bake`: a scene as constant tables, Rust source for a program without files.
+
+use crate::check;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::Arith;
+use crate::output;
+use octray_core::octree;
+use octray_scenes::bake::{Options, bake};
+use octray_scenes::quantise::View;
+use octray_scenes::tree::Growth;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// What to bake, and where to write it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BakeJob {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// The arithmetic to render in.
+    pub arith: Arith,
+    /// Columns and rows; the scene's own if `None`.
+    pub size: Option<(u32, u32)>,
+    /// Whether to bake a packed tree, or none.
+    pub packed: bool,
+    /// The most bounces.
+    pub max_depth: u32,
+    /// The weight below which a ray is not traced, 0 to 1.
+    pub cut_off: f64,
+    /// Objects up to which a node is not divided.
+    pub leaf_size: u32,
+    /// The Rust source; standard output if `None`.
+    pub output: Option<PathBuf>,
+}
+
+/// The deepest tree that may be baked.
+const TREE_DEPTH: u32 = 24;
+
+/// Bake the scene and write the source.
+///
+/// # Errors
+/// When the scene is refused, does not fit the arithmetic or the tree, or the source cannot be written.
+pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
+    if let Some(path) = &job.output {
+        output::probe(path)?;
+    }
+    let scene = check::read(&job.scene)?;
+    interrupt.check()?;
+    let name = job
+        .scene
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let options = Options {
+        name: &name,
+        view: View {
+            size: job.size,
+            pixels_per_ray: 1,
+            samples: 1,
+            max_depth: job.max_depth,
+        },
+        cut_off: job.cut_off,
+        tree: job.packed.then_some(Growth {
+            options: octree::Options {
+                depth: TREE_DEPTH,
+                leaf_size: job.leaf_size,
+            },
+            arena: None,
+        }),
+    };
+    let baked = bake(&scene, job.arith.name(), &options)
+        .map_err(|error| Error::Failed(error.to_string()))?;
+    interrupt.check()?;
+    let write = |out: &mut dyn Write| -> io::Result<()> { out.write_all(baked.source.as_bytes()) };
+    match &job.output {
+        Some(path) => output::write_file(path, interrupt, write),
+        None => output::write_stdout(interrupt, write),
+    }
+}

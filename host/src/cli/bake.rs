@@ -1,0 +1,72 @@
+//! Arguments of `octray bake`.
+
+use super::value;
+use crate::bake::BakeJob;
+use crate::error::Error;
+use crate::job::{Arith, DEEPEST};
+use clap::{Args, ValueEnum, value_parser};
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+
+/// Arguments of `octray bake`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+The source names the crate octray_core alone; include it in a module of its own.")]
+pub struct BakeArgs {
+    /// The scene file
+    scene: PathBuf,
+    /// The arithmetic to render in
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = Arith::Auto)]
+    arith: Arith,
+    /// Columns and rows; the framing stays [default: the scene's own]
+    #[arg(long, value_name = "WxH", value_parser = value::size)]
+    size: Option<(u32, u32)>,
+    /// The tree to bake
+    #[arg(long, value_name = "KIND", value_enum, default_value_t)]
+    tree: Tree,
+    /// How often a ray may bounce
+    #[arg(long, value_name = "D", default_value_t = 8, value_parser = value_parser!(u32).range(..=i64::from(DEEPEST)))]
+    max_depth: u32,
+    /// The weight below which a ray is not traced
+    #[arg(long, value_name = "C", default_value = "1/512", value_parser = value::weight)]
+    cut_off: f64,
+    /// Objects up to which a node of the tree is not divided
+    #[arg(long, value_name = "N", default_value = "2", value_parser = value::positive::<NonZeroU32>)]
+    leaf_size: NonZeroU32,
+    /// The Rust source [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The trees that can be baked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Tree {
+    /// Up to eight tight boxes per node in few bytes, walked in integers.
+    #[default]
+    Packed,
+    /// None: every ray tries every object.
+    None,
+}
+
+impl BakeArgs {
+    /// The job that these arguments ask for.
+    ///
+    /// # Errors
+    /// If the output would replace the scene.
+    pub fn job(self) -> Result<BakeJob, Error> {
+        if self.output.as_ref() == Some(&self.scene) {
+            let name = self.scene.display();
+            return Err(Error::Usage(format!("{name} is the scene itself")));
+        }
+        Ok(BakeJob {
+            scene: self.scene,
+            arith: self.arith,
+            size: self.size,
+            packed: self.tree == Tree::Packed,
+            max_depth: self.max_depth,
+            cut_off: self.cut_off,
+            leaf_size: self.leaf_size.get(),
+            output: self.output,
+        })
+    }
+}

@@ -1,0 +1,174 @@
+//! Baking: a scene, its tree and its picture as Rust source of constant tables, to be compiled
+//! into a program that has neither files nor an allocator, and left in flash.
+//!
+//! Numbers are written as the bit patterns of the format, so nothing is rounded on the way: the
+//! baked scene gives the same picture, byte for byte, as the scene it was baked from.
+//!
+//! The source names `octray_core` and no other crate. It declares
+//!
+//! | name | what |
+//! | --- | --- |
+//! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
+//! | `NEEDS` | what the scene needs, for [`octray_core::needs`] |
+//! | `SCENE`, `TREE`, `FRAME` | the scene, its tree, its picture |
+//! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
+//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `TREE_DEPTH` | what its memory has to be dimensioned for |
+//! | `NAME`, `ARITH` | the scene and the format, to be told |
+
+mod format;
+mod literal;
+mod source;
+
+pub use format::{FORMATS, bake};
+pub use literal::Literal;
+
+use crate::model::Scene;
+use crate::quantise::{Overflow, Prepared, View, quantise};
+use crate::tree::{Growth, PackedTree, every_object};
+use octray_core::needs::{self, Needs};
+use octray_core::scalar::Scalar;
+use octray_core::scene::Surface;
+use octray_core::shape::Kind;
+use octray_core::vec3::Vec3;
+use thiserror::Error;
+
+/// What is baked besides the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options<'a> {
+    /// The scene's name, to be told.
+    pub name: &'a str,
+    /// The picture; its `max_depth` bounds how often a ray bounces.
+    pub view: View,
+    /// Rays of less weight are not traced.
+    pub cut_off: f64,
+    /// How the packed tree is built; none, only a list of all objects, if `None`.
+    pub tree: Option<Growth>,
+}
+
+/// A baked scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Baked {
+    /// Rust source.
+    pub source: String,
+    /// The name of the format; tells what `auto` has chosen.
+    pub format: &'static str,
+    /// What the scene needs.
+    pub needs: Needs,
+    /// Bytes of the tables, links and nodes included, on a target of 32 bits.
+    pub bytes: usize,
+}
+
+/// Why a scene cannot be baked.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// There is no arithmetic of this name.
+    #[error("no arithmetic is called {0}")]
+    Unknown(String),
+    /// The scene does not fit the format.
+    #[error("{0}")]
+    Overflow(Overflow),
+    /// A packed tree has no place for so many objects.
+    #[error("a packed tree holds at most 32767 objects")]
+    TooMany,
+}
+
+/// Bakes a scene in format `S`.
+///
+/// # Errors
+/// If the scene does not fit the format or the tree.
+pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked, BakeError> {
+    let mut prepared = quantise::<S>(scene, &options.view).map_err(BakeError::Overflow)?;
+    let (words, links, depth) = match &options.tree {
+        None => (None, every_object(&prepared.scene), 0),
+        Some(growth) => {
+            let (tree, summary) =
+                PackedTree::build(&mut prepared.scene, growth).map_err(|_| BakeError::TooMany)?;
+            (Some(tree.words), tree.links, summary.depth)
+        }
+    };
+    let needs = needs_of(&prepared, options.view.max_depth);
+    let tables = source::Tables {
+        prepared: &prepared,
+        words: words.as_deref(),
+        links: &links,
+        needs,
+        rays: room(&used_surfaces(&prepared), needs, options),
+        tree_depth: depth,
+        options,
+    };
+    Ok(Baked {
+        bytes: tables.bytes(),
+        source: tables.to_string(),
+        format: S::NAME,
+        needs,
+    })
+}
+
+/// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
+fn needs_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> Needs {
+    let scene = &prepared.scene;
+    let shapes = scene.shapes();
+    let mut set = 0;
+    let mut need = |what: Needs, if_so: bool| set |= if if_so { what } else { 0 };
+    for kind in Kind::ALL {
+        need(needs::of_kind(kind), shapes.count(kind) > 0);
+    }
+    need(needs::BANDS, !scene.bands.is_empty());
+    need(needs::PATCHES, !scene.patches.is_empty());
+    need(needs::SHADOWS, !scene.lights.is_empty());
+    for surface in used_surfaces(prepared) {
+        let shines = surface.specular != Vec3::ZERO;
+        need(needs::SPECULAR, shines);
+        need(
+            needs::FRACTIONS,
+            shines && surface.shine.fraction != S::ZERO,
+        );
+        need(
+            needs::REFLECTION,
+            surface.reflect != S::ZERO && max_depth > 0,
+        );
+        need(needs::REFRACTION, surface.refract != S::ZERO);
+    }
+    set
+}
+
+fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
+    let scene = &prepared.scene;
+    let mut used: Vec<u32> = (scene.attributes.iter().flatten())
+        .map(|a| a.surface)
+        .collect();
+    used.sort_unstable();
+    used.dedup();
+    (used.iter())
+        .filter_map(|&i| scene.surfaces.get(i as usize).copied())
+        .collect()
+}
+
+/// How many rays can wait at once. A surface that only reflects leaves one, taken up at once; one
+/// that also transmits leaves one more at each bounce.
+fn room<S: Scalar + Literal>(
+    surfaces: &[Surface<S>],
+    needs: Needs,
+    options: &Options<'_>,
+) -> usize {
+    let follows =
+        |what| needs::needs(needs, what) && options.view.max_depth > 0 && !surfaces.is_empty();
+    match (follows(needs::REFLECTION), follows(needs::REFRACTION)) {
+        (false, false) => 0,
+        (true, false) | (false, true) => 1,
+        (true, true) => {
+            let share = (surfaces.iter())
+                .map(|s| s.reflect.to_f64().max(s.refract.to_f64()))
+                .fold(0.0, f64::max);
+            // Shares may come out a little heavier for rounding.
+            let mut weight = 1.001;
+            let mut bounces = 0;
+            while bounces < options.view.max_depth && weight * share >= options.cut_off {
+                weight *= share * 1.001;
+                bounces += 1;
+            }
+            bounces as usize + 1
+        }
+    }
+}

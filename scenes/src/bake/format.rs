@@ -1,0 +1,53 @@
+//! The arithmetics by name.
+
+use super::{BakeError, Baked, Options, bake_as};
+use crate::model::Scene;
+use crate::quantise::limits;
+use octray_core::scalar::{Approx, Fixed, Fixed64};
+
+/// The names that [`bake`] knows, besides `auto`.
+pub const FORMATS: [&str; 12] = [
+    "f64", "f32", "approx0", "approx1", "approx2", "i24f8", "i20f12", "i16f16", "i12f20", "i8f24",
+    "i4f28", "i32f32",
+];
+
+/// Bakes a scene in the arithmetic of that name; `auto` is the 32-bit fixed point with the most
+/// fraction bits that the scene cannot overflow.
+///
+/// # Errors
+/// If the scene does not fit the format or the tree, or there is no such arithmetic.
+pub fn bake(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<Baked, BakeError> {
+    let by = match arith {
+        "auto" => return bake(scene, finest(scene, options.view.max_depth), options),
+        "f64" => bake_as::<f64>,
+        "f32" => bake_as::<f32>,
+        "approx0" => bake_as::<Approx<0>>,
+        "approx1" => bake_as::<Approx<1>>,
+        "approx2" => bake_as::<Approx<2>>,
+        "i24f8" => bake_as::<Fixed<8, false>>,
+        "i20f12" => bake_as::<Fixed<12, false>>,
+        "i16f16" => bake_as::<Fixed<16, false>>,
+        "i12f20" => bake_as::<Fixed<20, false>>,
+        "i8f24" => bake_as::<Fixed<24, false>>,
+        "i4f28" => bake_as::<Fixed<28, false>>,
+        "i32f32" => bake_as::<Fixed64>,
+        unknown => return Err(BakeError::Unknown(unknown.into())),
+    };
+    by(scene, options)
+}
+
+fn finest(scene: &Scene, max_depth: u32) -> &'static str {
+    if limits::<Fixed<28, false>>(scene, max_depth).is_ok() {
+        "i4f28"
+    } else if limits::<Fixed<24, false>>(scene, max_depth).is_ok() {
+        "i8f24"
+    } else if limits::<Fixed<20, false>>(scene, max_depth).is_ok() {
+        "i12f20"
+    } else if limits::<Fixed<16, false>>(scene, max_depth).is_ok() {
+        "i16f16"
+    } else if limits::<Fixed<12, false>>(scene, max_depth).is_ok() {
+        "i20f12"
+    } else {
+        "i24f8"
+    }
+}

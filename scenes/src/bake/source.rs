@@ -1,0 +1,342 @@
+//! The tables as Rust source.
+
+use super::{Literal, Options};
+use crate::quantise::Prepared;
+use octray_core::camera::Projection;
+use octray_core::needs::{self, Needs};
+use octray_core::packet::Parts;
+use octray_core::ray::Bounds;
+use octray_core::scene::{Attributes, Light, Surface};
+use octray_core::shape::{
+    Bands, Cone, Cuboid, Flat, Kind, ObjectRef, Patch, Polygon, Sphere, Triangle,
+};
+use octray_core::vec3::{Axis, Vec3};
+use std::fmt::{self, Display, Formatter};
+use std::mem::size_of;
+
+/// All that is written.
+pub(super) struct Tables<'a, S: Literal> {
+    pub(super) prepared: &'a Prepared<S>,
+    /// The packed tree's nodes, if there is one.
+    pub(super) words: Option<&'a [u32]>,
+    /// The objects, leaf by leaf.
+    pub(super) links: &'a [ObjectRef],
+    pub(super) needs: Needs,
+    pub(super) rays: usize,
+    pub(super) tree_depth: u32,
+    pub(super) options: &'a Options<'a>,
+}
+
+impl<S: Literal> Tables<'_, S> {
+    /// Bytes of all arrays.
+    pub(super) fn bytes(&self) -> usize {
+        let scene = &self.prepared.scene;
+        size_of_val(&*scene.spheres)
+            + size_of_val(&*scene.triangles)
+            + size_of_val(&*scene.polygons)
+            + size_of_val(&*scene.cones)
+            + size_of_val(&*scene.cuboids)
+            + size_of_val(&*scene.corners)
+            + size_of_val(&*scene.bands)
+            + size_of_val(&*scene.edges)
+            + size_of_val(&*scene.patches)
+            + size_of_val(&*scene.normals)
+            + self.links.len() * (size_of::<Attributes>() + size_of::<ObjectRef>())
+            + size_of_val(&*scene.surfaces)
+            + size_of_val(&*scene.lights)
+            + self.words.map_or(0, size_of_val)
+    }
+}
+
+impl<S: Literal> Display for Tables<'_, S> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.head(f)?;
+        let scene = &self.prepared.scene;
+        array(f, "SPHERES", "shape::Sphere<S>", &scene.spheres, sphere)?;
+        let triangles = &scene.triangles;
+        array(f, "TRIANGLES", "shape::Triangle<S>", triangles, triangle)?;
+        array(f, "POLYGONS", "shape::Polygon<S>", &scene.polygons, polygon)?;
+        array(f, "CONES", "shape::Cone<S>", &scene.cones, cone)?;
+        array(f, "CUBOIDS", "shape::Cuboid<S>", &scene.cuboids, cuboid)?;
+        array(f, "CORNERS", "[S; 2]", &scene.corners, pair)?;
+        array(f, "BANDS", "u32", &scene.bands, u32::to_string)?;
+        array(f, "EDGES", "[[S; 2]; 2]", &scene.edges, |[a, b]| {
+            format!("[{}, {}]", pair(a), pair(b))
+        })?;
+        array(f, "PATCHES", "shape::Patch<S>", &scene.patches, patch)?;
+        array(f, "NORMALS", "vec3::Vec3<S>", &scene.normals, vector)?;
+        let seen = scene.scene();
+        array(
+            f,
+            "ATTRIBUTES",
+            "scene::Attributes",
+            seen.attributes,
+            attributes,
+        )?;
+        array(f, "SURFACES", "scene::Surface<S>", &scene.surfaces, surface)?;
+        array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
+        array(f, "LINKS", "shape::ObjectRef", self.links, link)?;
+        if let Some(words) = self.words {
+            array(f, "WORDS", "u32", words, |w| format!("{w:#010x}"))?;
+        }
+        writeln!(
+            f,
+            "\n/// The scene.\npub static SCENE: scene::Scene<'static, S, NEEDS> = scene::Scene {{\n    \
+             shapes: shape::Shapes {{\n        \
+             spheres: &SPHERES,\n        triangles: &TRIANGLES,\n        polygons: &POLYGONS,\n        \
+             cones: &CONES,\n        cuboids: &CUBOIDS,\n        \
+             outlines: shape::Outlines {{ corners: &CORNERS, bands: &BANDS, edges: &EDGES }},\n        \
+             patches: &PATCHES,\n        normals: &NORMALS,\n        slack: {},\n    }},\n    \
+             attributes: &ATTRIBUTES,\n    first: {:?},\n    surfaces: &SURFACES,\n    \
+             lights: &LIGHTS_,\n    background: {},\n    reach: {},\n}};",
+            number(scene.slack),
+            seen.first,
+            vector(&scene.background),
+            number(scene.reach),
+        )?;
+        let tree = match self.words {
+            Some(_) => "octree::Packed { words: &WORDS, links: &LINKS }",
+            None => "octree::List(&LINKS)",
+        };
+        writeln!(
+            f,
+            "\n/// Its tree.\npub static TREE: Tree = {tree};\n\n/// Its picture.\n\
+             pub static FRAME: packet::Frame<S> = packet::Frame::from_parts({});",
+            parts(self.prepared.frame.parts())
+        )
+    }
+}
+
+impl<S: Literal> Tables<'_, S> {
+    fn head(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Options { name, view, .. } = self.options;
+        let raw = S::RAW;
+        let parts = self.prepared.frame.parts();
+        let tree = match self.words {
+            Some(_) => "octree::Packed<'static>",
+            None => "octree::List<'static>",
+        };
+        let needed: Vec<_> = needs::NAMES
+            .into_iter()
+            .filter(|(_, what)| needs::needs(self.needs, *what))
+            .map(|(name, _)| format!("needs::{name}"))
+            .collect();
+        let needed = match &*needed {
+            [] => "0".into(),
+            some => some.join(" | "),
+        };
+        writeln!(
+            f,
+            "// {name}, baked by octray in {} at {} x {}.\n\
+             use octray_core::{{camera, needs, octree, packet, scalar, scene, shape, vec3}};\n\n\
+             /// The arithmetic.\npub type S = {};\n/// The kind of tree.\npub type Tree = {tree};\n\
+             /// What the scene needs.\npub const NEEDS: needs::Needs = {needed};\n\
+             /// The scene's name.\npub const NAME: &str = {name:?};\n\
+             /// The arithmetic's name.\npub const ARITH: &str = {:?};\n\
+             /// Columns.\npub const WIDTH: u32 = {};\n/// Rows.\npub const HEIGHT: u32 = {};\n\
+             /// The most bounces.\npub const MAX_DEPTH: u32 = {};\n\
+             /// Rays of less weight are not traced.\npub const CUT_OFF: S = {};\n\
+             /// How many rays can wait at once.\npub const RAYS: usize = {};\n\
+             /// How many lights there are.\npub const LIGHTS: usize = {};\n\
+             /// How many levels the tree has.\npub const TREE_DEPTH: u32 = {};\n\n\
+             const fn n(raw: {raw}) -> S {{\n    {}\n}}\n\n\
+             const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \
+             vec3::vec3(n(x), n(y), n(z))\n}}\n",
+            S::NAME,
+            parts.width,
+            parts.height,
+            S::type_name(),
+            S::NAME,
+            parts.width,
+            parts.height,
+            view.max_depth,
+            number(S::from_f64(self.options.cut_off)),
+            self.rays,
+            self.prepared.scene.lights.len(),
+            self.tree_depth,
+            S::FROM_RAW,
+        )
+    }
+}
+
+fn array<T>(
+    f: &mut Formatter<'_>,
+    name: &str,
+    of: &str,
+    things: &[T],
+    source: impl Fn(&T) -> String,
+) -> fmt::Result {
+    writeln!(f, "static {name}: [{of}; {}] = [", things.len())?;
+    for thing in things {
+        writeln!(f, "    {},", source(thing))?;
+    }
+    writeln!(f, "];")
+}
+
+fn number<S: Literal>(x: S) -> String {
+    format!("n({})", x.raw())
+}
+
+fn vector<S: Literal>(v: &Vec3<S>) -> String {
+    format!("v({}, {}, {})", v.x.raw(), v.y.raw(), v.z.raw())
+}
+
+fn pair<S: Literal>([a, b]: &[S; 2]) -> String {
+    format!("[{}, {}]", number(*a), number(*b))
+}
+
+fn bounds<S: Literal>(b: &Bounds<S>) -> String {
+    let (low, high) = (vector(&b.low), vector(&b.high));
+    format!("octray_core::ray::Bounds {{ low: {low}, high: {high} }}")
+}
+
+fn axis(axis: Axis) -> String {
+    format!("vec3::Axis::{axis:?}")
+}
+
+fn flat<S: Literal>(plane: &Flat<S>) -> String {
+    format!(
+        "shape::Flat {{ normal: {}, offset: {}, axis: {} }}",
+        vector(&plane.normal),
+        number(plane.offset),
+        axis(plane.axis)
+    )
+}
+
+fn sphere<S: Literal>(sphere: &Sphere<S>) -> String {
+    let (centre, radius) = (vector(&sphere.centre), number(sphere.radius));
+    format!("shape::Sphere {{ centre: {centre}, radius: {radius} }}")
+}
+
+fn triangle<S: Literal>(triangle: &Triangle<S>) -> String {
+    let [a, b, c] = &triangle.corners;
+    format!(
+        "shape::Triangle {{ plane: {}, corners: [{}, {}, {}], depth: {} }}",
+        flat(&triangle.plane),
+        pair(a),
+        pair(b),
+        pair(c),
+        pair(&triangle.depth)
+    )
+}
+
+fn polygon<S: Literal>(polygon: &Polygon<S>) -> String {
+    let Bands {
+        first,
+        count,
+        low,
+        scale,
+    } = polygon.bands;
+    format!(
+        "shape::Polygon {{ plane: {}, first: {}, count: {}, bounds: {}, \
+         bands: shape::Bands {{ first: {first}, count: {count}, low: {}, scale: {} }} }}",
+        flat(&polygon.plane),
+        polygon.first,
+        polygon.count,
+        bounds(&polygon.bounds),
+        number(low),
+        S::reciprocal_source(scale)
+    )
+}
+
+fn cone<S: Literal>(cone: &Cone<S>) -> String {
+    format!(
+        "shape::Cone {{ centre: {}, axis: {}, half_length: {}, mid_radius: {}, sin: {}, cos: {}, \
+         reach: {}, exponent: {}, bounds: {} }}",
+        vector(&cone.centre),
+        vector(&cone.axis),
+        number(cone.half_length),
+        number(cone.mid_radius),
+        number(cone.sin),
+        number(cone.cos),
+        number(cone.reach),
+        cone.exponent,
+        bounds(&cone.bounds)
+    )
+}
+
+fn cuboid<S: Literal>(cuboid: &Cuboid<S>) -> String {
+    let (low, high) = (vector(&cuboid.low), vector(&cuboid.high));
+    format!("shape::Cuboid {{ low: {low}, high: {high} }}")
+}
+
+fn patch<S: Literal>(patch: &Patch<S>) -> String {
+    format!(
+        "shape::Patch {{ first_normal: {}, exponent: {}, least_area: {} }}",
+        patch.first_normal,
+        patch.exponent,
+        number(patch.least_area)
+    )
+}
+
+fn attributes(attributes: &Attributes) -> String {
+    let Attributes { id, surface, patch } = attributes;
+    match *patch {
+        Attributes::FLAT => format!(
+            "scene::Attributes {{ id: {id}, surface: {surface}, patch: scene::Attributes::FLAT }}"
+        ),
+        _ => format!("scene::Attributes {{ id: {id}, surface: {surface}, patch: {patch} }}"),
+    }
+}
+
+fn surface<S: Literal>(surface: &Surface<S>) -> String {
+    format!(
+        "scene::Surface {{ ambient: {}, diffuse: {}, specular: {}, \
+         shine: scalar::Exponent {{ whole: {}, fraction: {} }}, reflect: {}, refract: {}, \
+         entering: {}, leaving: {} }}",
+        vector(&surface.ambient),
+        vector(&surface.diffuse),
+        vector(&surface.specular),
+        surface.shine.whole,
+        number(surface.shine.fraction),
+        number(surface.reflect),
+        number(surface.refract),
+        number(surface.entering),
+        number(surface.leaving)
+    )
+}
+
+fn light<S: Literal>(light: &Light<S>) -> String {
+    let (position, colour) = (vector(&light.position), vector(&light.colour));
+    format!("scene::Light {{ position: {position}, colour: {colour} }}")
+}
+
+fn link(link: &ObjectRef) -> String {
+    let kind: Kind = link.kind();
+    let mark = if link.is_last() {
+        ".marked_last(true)"
+    } else {
+        ""
+    };
+    format!(
+        "shape::ObjectRef::new(shape::Kind::{kind:?}, {}){mark}",
+        link.index()
+    )
+}
+
+fn parts<S: Literal>(parts: &Parts<S>) -> String {
+    let camera = &parts.camera;
+    let projection = match camera.projection {
+        Projection::Perspective => "Perspective",
+        Projection::Parallel => "Parallel",
+    };
+    format!(
+        "packet::Parts {{\n    camera: camera::Camera {{\n        origin: {},\n        \
+         forward: {},\n        right: {},\n        up: {},\n        \
+         projection: camera::Projection::{projection},\n    }},\n    \
+         active: packet::Region {{ columns: {:?}, rows: {:?} }},\n    block: {},\n    \
+         samples: {},\n    width: WIDTH,\n    height: HEIGHT,\n    across: {},\n    down: {},\n    \
+         share: {},\n}}",
+        vector(&camera.origin),
+        vector(&camera.forward),
+        vector(&camera.right),
+        vector(&camera.up),
+        parts.active.columns,
+        parts.active.rows,
+        parts.block,
+        parts.samples,
+        S::reciprocal_source(parts.across),
+        S::reciprocal_source(parts.down),
+        number(parts.share),
+    )
+}
