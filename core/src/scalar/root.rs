@@ -21,7 +21,9 @@ pub(super) fn sqrt_f32(x: f32) -> f32 {
 #[unsafe(naked)]
 extern "C" fn vsqrt(_x: f32) -> f32 {
     // SAFETY: it changes s0 alone, and returns to its caller.
-    core::arch::naked_asm!("vsqrt.f32 s0, s0", "bx lr")
+    // The instruction is vsqrt.f32 s0, s0, whose name the assembler refuses there: it does not know
+    // of the target's floating-point unit.
+    core::arch::naked_asm!(".inst.w 0xeeb10ac0", "bx lr")
 }
 
 /// By the F extension.

@@ -1,0 +1,107 @@
+//! Bakes the scene, and chooses the memory layout of the board.
+//!
+//! | variable | what | default |
+//! | --- | --- | --- |
+//! | `OCTRAY_SCENE` | the scene file, from the workspace's folder | `scenes/figure-22.scene` |
+//! | `OCTRAY_ARITH` | the arithmetic | `auto` |
+//! | `OCTRAY_SIZE` | columns x rows | `160x120` |
+//! | `OCTRAY_TREE` | `packed` or `none` | `packed` |
+//! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
+//! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 2 |
+//! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 1 |
+//! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
+
+use octray_core::octree;
+use octray_scenes::bake::{Options, bake};
+use octray_scenes::quantise::View;
+use octray_scenes::tree::Growth;
+use std::path::Path;
+use std::{env, fs, process};
+
+fn main() {
+    if let Err(message) = run() {
+        println!("cargo::error={message}");
+        process::exit(1);
+    }
+}
+
+/// A variable, or its default; the build is repeated when it changes.
+fn variable(name: &str, default: &str) -> String {
+    println!("cargo::rerun-if-env-changed={name}");
+    env::var(name).unwrap_or_else(|_| default.into())
+}
+
+fn number(name: &str, default: &str) -> Result<u32, String> {
+    let text = variable(name, default);
+    text.parse()
+        .map_err(|_| format!("{name}={text}: expected a number"))
+}
+
+fn run() -> Result<(), String> {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=link");
+    println!("cargo::rustc-check-cfg=cfg(octray_counts)");
+    let out = env::var("OUT_DIR").map_err(|error| error.to_string())?;
+    let source = baked()?;
+    let written = fs::write(Path::new(&out).join("baked.rs"), source);
+    written.map_err(|error| format!("cannot write the baked scene: {error}"))?;
+    if number("OCTRAY_COUNTS", "1")? != 0 {
+        println!("cargo::rustc-cfg=octray_counts");
+    }
+    let board = variable("OCTRAY_BOARD", "virt");
+    let arch = env::var("CARGO_CFG_TARGET_ARCH").unwrap_or_default();
+    let bare = env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none");
+    let layout = match (&*arch, &*board) {
+        _ if !bare => return Ok(()),
+        ("arm", _) => "cortex-m",
+        ("riscv32", "virt" | "sifive_e") => &board,
+        ("riscv32", _) => return Err(format!("no memory layout for board {board}")),
+        _ => return Err(format!("no start-up code for {arch}")),
+    };
+    let copied = fs::copy(format!("link/{layout}.x"), Path::new(&out).join("memory.x"));
+    copied.map_err(|error| format!("cannot copy the memory layout: {error}"))?;
+    println!("cargo::rustc-link-search={out}");
+    if arch == "riscv32" {
+        println!("cargo::rustc-link-arg-bins=-Tmemory.x");
+    }
+    println!("cargo::rustc-link-arg-bins=-Tlink.x");
+    println!("cargo::rustc-link-arg-bins=--nmagic");
+    Ok(())
+}
+
+fn baked() -> Result<String, String> {
+    let path = Path::new("..").join(variable("OCTRAY_SCENE", "scenes/figure-22.scene"));
+    println!("cargo::rerun-if-changed={}", path.display());
+    let scene = octray_scenes::read(&path).map_err(|error| error.to_string())?;
+    let size = variable("OCTRAY_SIZE", "160x120");
+    let (width, height) = (size.split_once('x'))
+        .and_then(|(w, h)| Some((w.parse::<u16>().ok()?, h.parse::<u16>().ok()?)))
+        .filter(|(w, h)| *w > 0 && *h > 0)
+        .ok_or_else(|| format!("OCTRAY_SIZE={size}: expected columns x rows such as 160x120"))?;
+    let options = octree::Options {
+        depth: 24,
+        leaf_size: number("OCTRAY_LEAF_SIZE", "2")?,
+    };
+    let tree = match &*variable("OCTRAY_TREE", "packed") {
+        "packed" => Some(Growth {
+            options,
+            arena: None,
+        }),
+        "none" => None,
+        other => return Err(format!("OCTRAY_TREE={other}: expected packed or none")),
+    };
+    let options = Options {
+        name: &path.file_stem().unwrap_or_default().to_string_lossy(),
+        view: View {
+            size: Some((width.into(), height.into())),
+            pixels_per_ray: 1,
+            samples: 1,
+            max_depth: number("OCTRAY_MAX_DEPTH", "8")?,
+        },
+        cut_off: 1.0 / 512.0,
+        tree,
+    };
+    bake(&scene, &variable("OCTRAY_ARITH", "auto"), &options)
+        .map(|baked| baked.source)
+        .map_err(|error| error.to_string())
+}

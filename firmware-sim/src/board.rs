@@ -1,0 +1,151 @@
+//! What is the same on every board: the frame, its marks for whoever counts instructions, the
+//! report and the exit.
+
+#[cfg(target_arch = "arm")]
+mod cortex_m;
+#[cfg(target_arch = "riscv32")]
+mod riscv;
+mod stack;
+mod tell;
+
+use crate::baked::{
+    CUT_OFF, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, NEEDS, RAYS, S, SCENE, TREE, Tree, WIDTH,
+};
+use core::convert::Infallible;
+use core::panic::PanicInfo;
+use embedded_graphics_core::Pixel;
+use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::geometry::{OriginDimensions, Size};
+use embedded_graphics_core::pixelcolor::Rgb888;
+use embedded_graphics_core::primitives::Rectangle;
+use octray_core::octree::Accelerator;
+use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_firmware_sim::hash::HashPanel;
+use octray_firmware_sim::render;
+use semihosting::process::exit;
+
+/// Rows of the strip buffer.
+const ROWS: usize = 4;
+
+#[cfg(octray_counts)]
+type Counts = octray_firmware_sim::tally::Tally;
+#[cfg(not(octray_counts))]
+type Counts = ();
+
+/// Renders, tells, exits.
+fn run() -> ! {
+    stack::paint();
+    let mut counts = Counts::default();
+    let hash = frame(&mut counts);
+    let deepest = stack::deepest();
+    tell::text("scene ");
+    tell::text(crate::baked::NAME);
+    tell::text("\narith ");
+    tell::text(crate::baked::ARITH);
+    tell::text("\nhash ");
+    tell::hexadecimal(hash);
+    tell_counts(&counts);
+    tell::number("stack", deepest.unwrap_or(0));
+    tell::text("\n");
+    exit(if deepest.is_some() { 0 } else { 103 })
+}
+
+/// Renders the picture; its hash.
+#[inline(never)]
+fn frame(counts: &mut Counts) -> u64 {
+    let tracer = Tracer {
+        scene: &SCENE,
+        accelerator: &TREE,
+        max_depth: MAX_DEPTH,
+        cut_off: CUT_OFF,
+    };
+    let mut rays = [Pending::EMPTY; RAYS];
+    let mut blockers = [None; LIGHTS];
+    let mut workspace = Workspace {
+        rays: &mut rays,
+        stack: &mut <Tree as Accelerator<S, NEEDS>>::Stack::default(),
+        blockers: &mut blockers,
+    };
+    let mut strip = [[0; 3]; WIDTH as usize * ROWS];
+    let mut panel = Panel(HashPanel::new(WIDTH, HEIGHT));
+    octray_resume();
+    let Ok(()) = render(
+        &mut panel,
+        &FRAME,
+        &tracer,
+        &mut workspace,
+        &mut strip,
+        counts,
+    );
+    octray_pause();
+    panel.0.hash()
+}
+
+#[cfg(octray_counts)]
+fn tell_counts(counts: &Counts) {
+    let [primary, shadow, reflected, transmitted] = counts.rays;
+    tell::number("primary", primary);
+    tell::number("shadow", shadow);
+    tell::number("reflected", reflected);
+    tell::number("transmitted", transmitted);
+    tell::number("blocked", counts.blocked);
+    tell::number("steps", counts.steps);
+    tell::number("tests", counts.tests);
+    tell::number("waiting", counts.deepest);
+}
+
+#[cfg(not(octray_counts))]
+fn tell_counts(&(): &Counts) {}
+
+/// The panel, with whatever it does left out of what is measured.
+struct Panel(HashPanel);
+
+impl OriginDimensions for Panel {
+    fn size(&self) -> Size {
+        self.0.size()
+    }
+}
+
+impl DrawTarget for Panel {
+    type Color = Rgb888;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(
+        &mut self,
+        pixels: I,
+    ) -> Result<(), Infallible> {
+        self.0.draw_iter(pixels)
+    }
+
+    fn fill_contiguous<I: IntoIterator<Item = Rgb888>>(
+        &mut self,
+        area: &Rectangle,
+        colours: I,
+    ) -> Result<(), Infallible> {
+        octray_pause();
+        let drawn = self.0.fill_contiguous(area, colours);
+        octray_resume();
+        drawn
+    }
+}
+
+/// From here on instructions belong to the frame: a mark for an emulator's plugin.
+#[unsafe(no_mangle)]
+#[inline(never)]
+extern "C" fn octray_resume() {
+    // The barrier keeps it from being folded with `octray_pause`.
+    core::hint::black_box(1u32);
+}
+
+/// From here on they do not.
+#[unsafe(no_mangle)]
+#[inline(never)]
+extern "C" fn octray_pause() {
+    core::hint::black_box(2u32);
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    tell::text("panic\n");
+    exit(101)
+}

@@ -1,0 +1,37 @@
+//! Text and numbers by semihosting, without the formatting machinery, which would not fit.
+
+use semihosting::sys::arm_compat::sys_writec;
+
+/// Tells a text.
+pub(super) fn text(text: &str) {
+    for byte in text.bytes() {
+        sys_writec(byte);
+    }
+}
+
+/// Tells a name and a number on a line of their own.
+pub(super) fn number(name: &str, number: u32) {
+    text("\n");
+    text(name);
+    text(" ");
+    digits(number);
+}
+
+fn digits(number: u32) {
+    let mut power = 1;
+    while number / power >= 10 {
+        power *= 10;
+    }
+    while power > 0 {
+        sys_writec(b'0' + (number / power % 10) as u8);
+        power /= 10;
+    }
+}
+
+/// Tells sixteen hexadecimal digits.
+pub(super) fn hexadecimal(number: u64) {
+    for nibble in (0..16).rev() {
+        let digit = (number >> (4 * nibble)) as u8 & 15;
+        sys_writec(digit + if digit < 10 { b'0' } else { b'a' - 10 });
+    }
+}

@@ -1,0 +1,21 @@
+//! octray where there is little: a scene rendered packet by packet into a strip buffer of a few
+//! rows, and each strip drawn into any [`DrawTarget`].
+//!
+//! | module | what it holds |
+//! | --- | --- |
+//! | [`mod@render`] | from packets of rays to strips of pixels to a display |
+//! | [`tally`] | counts of rays, steps and tests in 32 bits |
+//! | [`hash`] | a display that keeps nothing but the picture's hash |
+//!
+//! The binary `octray-firmware` renders the scene that the build script has baked on Cortex-M and
+//! RISC-V boards, and tells the picture's hash by semihosting.
+//!
+//! [`DrawTarget`]: embedded_graphics_core::draw_target::DrawTarget
+#![no_std]
+#![forbid(unsafe_code)]
+
+pub mod hash;
+pub mod render;
+pub mod tally;
+
+pub use render::render;

@@ -1,0 +1,21 @@
+//! Renders the scene that the build script has baked, on a board without operating system, and
+//! tells the picture's hash, what was counted and the deepest stack by semihosting. Exit code 0 if
+//! all went well, 101 after a panic, 102 after a fault, 103 if the stack ran out.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+mod board;
+
+/// The baked scene.
+#[cfg(target_os = "none")]
+#[allow(dead_code, unreachable_pub, reason = "written for any program")]
+mod baked {
+    include!(concat!(env!("OUT_DIR"), "/baked.rs"));
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() {
+    eprintln!(
+        "octray-firmware runs on boards: build it with --target thumbv6m-none-eabi or the like"
+    );
+}
