@@ -1,0 +1,323 @@
+//! The firmware on every board: it builds without a warning, renders the same bytes as the host,
+//! in fixed point and in floats, soft and hard, and stays within the memory that was promised.
+//!
+//! Boards whose target is not installed, or whose emulator is missing, are skipped; which, is told.
+
+use object::{Object, ObjectSection, SectionFlags};
+use octray_core::octree::Options;
+use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
+use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_scenes::quantise::{View, quantise};
+use octray_scenes::tree::{Growth, TightTree};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::{Mutex, MutexGuard};
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+
+/// A board of the emulator.
+#[derive(Clone, Copy, Debug)]
+struct Board {
+    target: &'static str,
+    machine: &'static str,
+}
+
+const fn board(target: &'static str, machine: &'static str) -> Board {
+    Board { target, machine }
+}
+
+const MICROBIT: Board = board("thumbv6m-none-eabi", "microbit");
+
+const BOARDS: [Board; 8] = [
+    MICROBIT,
+    board("thumbv7m-none-eabi", "lm3s6965evb"),
+    board("thumbv7em-none-eabi", "mps2-an386"),
+    board("thumbv7em-none-eabihf", "mps2-an386"),
+    board("thumbv7em-none-eabihf", "mps2-an500"),
+    board("riscv32imac-unknown-none-elf", "virt"),
+    board("riscv32imac-unknown-none-elf", "sifive_e"),
+    board("riscv32imafc-unknown-none-elf", "virt"),
+];
+
+impl Board {
+    fn is_arm(self) -> bool {
+        self.target.starts_with("thumb")
+    }
+
+    fn emulator(self) -> &'static str {
+        match self.is_arm() {
+            true => "qemu-system-arm",
+            false => "qemu-system-riscv32",
+        }
+    }
+
+    /// What is missing, if anything.
+    fn missing(self) -> Option<String> {
+        let found = Command::new("rustc")
+            .args(["--print", "target-libdir", "--target", self.target])
+            .output()
+            .is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir());
+        if !found {
+            return Some(format!("rustup target add {}", self.target));
+        }
+        let runs = Command::new(self.emulator()).arg("--version").output();
+        let package = ["qemu-system-misc", "qemu-system-arm"][usize::from(self.is_arm())];
+        (!runs.is_ok_and(|output| output.status.success()))
+            .then(|| format!("apt-get install {package}"))
+    }
+}
+
+/// What is rendered.
+#[derive(Clone, Copy, Debug)]
+struct Job {
+    scene: &'static str,
+    arith: &'static str,
+    size: (u32, u32),
+}
+
+/// One board is built for at a time: they share a folder.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+/// Builds the firmware; any warning fails the test.
+fn build(board: Board, job: Job) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
+    let (width, height) = job.size;
+    let output = Command::new(env!("CARGO"))
+        .current_dir(root())
+        .args([
+            "build",
+            "-p",
+            "octray-firmware-sim",
+            "--profile",
+            "firmware",
+        ])
+        .args(["--target", board.target])
+        .env("CARGO_TARGET_DIR", &folder)
+        .env("OCTRAY_SCENE", job.scene)
+        .env("OCTRAY_ARITH", job.arith)
+        .env("OCTRAY_SIZE", format!("{width}x{height}"))
+        .env("OCTRAY_BOARD", board.machine)
+        .env_remove("OCTRAY_TREE")
+        .env_remove("OCTRAY_MAX_DEPTH")
+        .env_remove("OCTRAY_LEAF_SIZE")
+        .env_remove("OCTRAY_COUNTS")
+        .env_remove("RUSTFLAGS")
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{board:?} {job:?}\n{told}");
+    assert!(!told.contains("warning"), "{board:?} {job:?}\n{told}");
+    folder
+        .join(board.target)
+        .join("firmware")
+        .join("octray-firmware")
+}
+
+/// Runs it; what it told, line by line. A run that does not end in time is a failure.
+fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
+    let mut command = Command::new(board.emulator());
+    command.args(["-M", board.machine]);
+    if !board.is_arm() && board.machine == "virt" {
+        command.args(["-bios", "none"]);
+    }
+    command
+        .args(["-semihosting-config", "enable=on,target=native"])
+        .args(["-display", "none", "-monitor", "none", "-serial", "none"])
+        .args(["-icount", "shift=0", "-kernel"])
+        .arg(firmware);
+    let output = run_for(command, Duration::from_secs(120));
+    let told = [&*output.stdout, &*output.stderr].concat();
+    let told = String::from_utf8_lossy(&told);
+    assert!(
+        output.status.success(),
+        "{board:?}: {}\n{told}",
+        output.status
+    );
+    told.lines()
+        .filter_map(|line| line.split_once(' '))
+        .map(|(name, value)| (name.into(), value.into()))
+        .collect()
+}
+
+fn run_for(mut command: Command, time: Duration) -> Output {
+    use std::process::Stdio;
+    let mut child = (command.stdin(Stdio::null()))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begin = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if begin.elapsed() > time {
+            child.kill().unwrap();
+            panic!("{command:?} did not end");
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    child.wait_with_output().unwrap()
+}
+
+fn value<'a>(told: &'a [(String, String)], name: &str) -> &'a str {
+    told.iter()
+        .find(|(n, _)| n == name)
+        .map(|(_, value)| &**value)
+        .unwrap_or_else(|| panic!("no {name} in {told:?}"))
+}
+
+/// The hash of the picture that the host makes, with the host's own tree.
+fn hash_here<S: Quantize>(job: Job) -> String {
+    let scene = octray_scenes::read(root().join(job.scene)).unwrap();
+    let (width, height) = job.size;
+    let view = View {
+        size: Some(job.size),
+        pixels_per_ray: 1,
+        samples: 1,
+        max_depth: 8,
+    };
+    reset_saturations();
+    let mut prepared = quantise::<S>(&scene, &view).unwrap();
+    let options = Options {
+        depth: 24,
+        leaf_size: 2,
+    };
+    let growth = Growth {
+        options,
+        arena: None,
+    };
+    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let scene = prepared.scene.scene();
+    let tracer = Tracer {
+        scene: &scene,
+        accelerator: &tree.tree(),
+        max_depth: view.max_depth,
+        cut_off: S::from_f64(1.0 / 512.0),
+    };
+    let mut workspace = Workspace {
+        rays: &mut [Pending::EMPTY; 10],
+        stack: &mut Default::default(),
+        blockers: &mut vec![None; scene.lights.len()],
+    };
+    let background = scene.background.to_array().map(S::level);
+    let mut levels = vec![background; (width * height) as usize];
+    prepared
+        .frame
+        .render(0..height, &tracer, &mut workspace, &mut (), |x, y, c| {
+            levels[(y * width + x) as usize] = c.to_array().map(S::level);
+        });
+    assert_eq!(saturations(), 0, "{job:?}");
+    let bytes = [width.to_le_bytes(), height.to_le_bytes()].concat();
+    let hash = (bytes.iter().chain(levels.as_flattened()))
+        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
+        });
+    format!("{hash:016x}")
+}
+
+/// Renders on every board, and compares with the host.
+fn same_everywhere(job: Job, expected: &str) {
+    let _alone = alone();
+    for board in BOARDS {
+        if let Some(install) = board.missing() {
+            eprintln!("skipped {board:?}: {install}");
+            continue;
+        }
+        let told = emulate(board, &build(board, job));
+        assert_eq!(value(&told, "hash"), expected, "{board:?} {job:?}");
+        assert_eq!(value(&told, "arith"), job.arith);
+    }
+}
+
+const SMALL: (u32, u32) = (32, 24);
+
+#[test]
+fn fixed_point_is_the_same_everywhere() {
+    let job = Job {
+        scene: "scenes/figure-22.scene",
+        arith: "i16f16",
+        size: SMALL,
+    };
+    same_everywhere(job, &hash_here::<Fixed<16, true>>(job));
+}
+
+#[test]
+fn floats_are_the_same_everywhere() {
+    let job = Job {
+        scene: "scenes/glass.scene",
+        arith: "f32",
+        size: SMALL,
+    };
+    same_everywhere(job, &hash_here::<f32>(job));
+}
+
+/// Bytes of flash: everything that is loaded.
+fn flash(firmware: &Path) -> u64 {
+    sum_sections(firmware, |name| {
+        !name.starts_with(".bss") && !name.starts_with(".uninit")
+    })
+}
+
+fn ram(firmware: &Path) -> u64 {
+    sum_sections(firmware, |name| {
+        [".data", ".bss", ".uninit"]
+            .iter()
+            .any(|start| name.starts_with(start))
+    })
+}
+
+fn sum_sections(firmware: &Path, counts: impl Fn(&str) -> bool) -> u64 {
+    let bytes = fs::read(firmware).unwrap();
+    let elf = object::File::parse(&*bytes).unwrap();
+    elf.sections()
+        .filter(|section| match section.flags() {
+            SectionFlags::Elf { sh_flags, .. } => (sh_flags & object::elf::SHF_ALLOC).0 != 0,
+            _ => false,
+        })
+        .filter(|section| section.name().is_ok_and(&counts))
+        .map(|section| section.size())
+        .sum()
+}
+
+#[test]
+fn figure_22_fits_the_smallest_board() {
+    let _alone = alone();
+    if let Some(install) = MICROBIT.missing() {
+        eprintln!("skipped: {install}");
+        return;
+    }
+    let job = Job {
+        scene: "scenes/figure-22.scene",
+        arith: "auto",
+        size: (160, 120),
+    };
+    let firmware = build(MICROBIT, job);
+    let told = emulate(MICROBIT, &firmware);
+    let stack: u64 = value(&told, "stack").parse().unwrap();
+    let (flash, ram) = (flash(&firmware), ram(&firmware) + stack);
+    assert!(flash <= 32 << 10, "{flash} bytes of flash");
+    assert!(ram <= 8 << 10, "{ram} bytes of RAM");
+}
+
+#[test]
+fn what_a_scene_does_without_is_not_linked() {
+    let _alone = alone();
+    if let Some(install) = MICROBIT.missing() {
+        eprintln!("skipped: {install}");
+        return;
+    }
+    let job = Job {
+        scene: "tests/scenes/spheres.scene",
+        arith: "auto",
+        size: (160, 120),
+    };
+    let flash = flash(&build(MICROBIT, job));
+    assert!(flash <= 12 << 10, "{flash} bytes of flash");
+}
