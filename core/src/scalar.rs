@@ -13,6 +13,7 @@
 mod approx;
 mod fixed;
 mod float;
+pub(crate) mod multiply;
 mod root;
 
 pub use approx::Approx;

@@ -18,7 +18,7 @@ use super::{Accelerator, Hit};
 use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, multiply};
 use crate::scene::Scene;
 use crate::shape::{ObjectRef, Shapes};
 use crate::vec3::Axis;
@@ -316,12 +316,10 @@ impl Along {
                 negative: false,
             };
         }
-        let apart = if self.negative {
-            -i64::from(apart)
-        } else {
-            i64::from(apart)
-        };
-        let ticks = ((apart * i64::from(self.inverse_q24)) >> (24 + TICK_BITS)) as i32;
+        // The inverse is below 2³¹.
+        let product = multiply::signed(apart, self.inverse_q24 as i32);
+        let product = if self.negative { -product } else { product };
+        let ticks = (product >> (24 + TICK_BITS)) as i32;
         Slab {
             near: ticks - MARGIN,
             far: ticks + MARGIN,

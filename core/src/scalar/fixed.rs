@@ -8,7 +8,7 @@ mod wide;
 
 pub use wide::Fixed64;
 
-use super::{Exponent, Quantize, Scalar};
+use super::{Exponent, Quantize, Scalar, multiply};
 use crate::octree::Slope;
 use core::ops::{Add, Mul, Neg, Sub};
 pub(crate) use root::reciprocal_q30;
@@ -139,7 +139,7 @@ impl Reciprocal {
     /// `a` / x, to nearest, saturating.
     #[inline(always)]
     fn divide(self, a: i32) -> i32 {
-        let product = i64::from(a) * i64::from(self.mantissa);
+        let product = multiply::signed(a, self.mantissa);
         let half = (1i64 << (self.shift & 63)) >> 1;
         saturate((product + half) >> (self.shift & 63))
     }
@@ -205,7 +205,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
 
     #[inline(always)]
     fn product(a: Self, b: Self) -> Product {
-        Product(i64::from(a.0) * i64::from(b.0))
+        Product(multiply::signed(a.0, b.0))
     }
 
     #[inline(always)]
@@ -220,7 +220,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         }
         let zeros = wide.0.leading_zeros() & !1;
         let x_q32 = ((wide.0 << zeros) as u64 >> 32) as u32;
-        let root_q32 = (u64::from(x_q32) * u64::from(rsqrt_q30(x_q32)) + (1 << 29)) >> 30;
+        let root_q32 = (multiply::unsigned(x_q32, rsqrt_q30(x_q32)) + (1 << 29)) >> 30;
         Self(saturate((root_q32 >> (zeros / 2)) as i64))
     }
 
@@ -256,10 +256,12 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
 
     #[inline(always)]
     fn part(self, n: u32) -> u32 {
-        ((u64::from(self.0.max(0) as u32) * u64::from(n)) >> F) as u32
+        (multiply::unsigned(self.0.max(0) as u32, n) >> F) as u32
     }
 
-    #[inline(always)]
+    // Where a call costs little beside its products, one copy is enough.
+    #[cfg_attr(octray_armv6m, inline(never))]
+    #[cfg_attr(not(octray_armv6m), inline(always))]
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
         let size = v[0].0.unsigned_abs() | v[1].0.unsigned_abs() | v[2].0.unsigned_abs();
         if size == 0 {
@@ -267,7 +269,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = size.leading_zeros().saturating_sub(1);
-        let square_of = |c: i32| i64::from(c).unsigned_abs() * i64::from(c).unsigned_abs();
+        let square_of = |c: i32| multiply::signed(c, c) as u64;
         let [x, y, z] = v.map(|c| c.0 << up);
         let square = square_of(x)
             .wrapping_add(square_of(y))
@@ -278,9 +280,9 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         let shift = 62 - F - zeros / 2;
         let half = 1i64 << (shift - 1);
         let unit = [x, y, z].map(|c| {
-            Self(((i64::from(c) * i64::from(inverse_q30)).wrapping_add(half) >> shift) as i32)
+            Self((multiply::signed(c, inverse_q30 as i32).wrapping_add(half) >> shift) as i32)
         });
-        let length_q32 = (u64::from(x_q32) * u64::from(inverse_q30)) >> 30;
+        let length_q32 = multiply::unsigned(x_q32, inverse_q30) >> 30;
         let length = length_q32 >> (up + zeros / 2);
         (unit, Self(saturate(length as i64)))
     }
@@ -317,7 +319,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     #[inline(always)]
     fn level(self) -> u8 {
         let c = i64::from(self.0.clamp(0, 1 << F));
-        ((c * 255 + (1 << (F - 1))) >> F) as u8
+        (((c << 8) - c + (1 << (F - 1))) >> F) as u8
     }
 
     #[inline(always)]

@@ -1,5 +1,7 @@
 //! Powers of numbers in [0, 1], in 31 bits whatever the format.
 
+use crate::scalar::multiply::{signed, unsigned};
+
 /// x^(whole + fraction) for raw `x` and `fraction` with `f` bits behind the point; `x` is clamped
 /// to [0, 1].
 pub(super) fn power(x: i32, f: u32, whole: u32, fraction: i32) -> i32 {
@@ -49,12 +51,12 @@ fn root_q31(x_q31: u32, f_q31: u32) -> u32 {
 
 #[inline(always)]
 fn mul_q31(a: u32, b: u32) -> u32 {
-    ((u64::from(a) * u64::from(b) + (1 << 30)) >> 31) as u32
+    ((unsigned(a, b) + (1 << 30)) >> 31) as u32
 }
 
 #[inline(always)]
 fn mul_q30(a: i32, b: i32) -> i32 {
-    ((i64::from(a) * i64::from(b)) >> 30) as i32
+    (signed(a, b) >> 30) as i32
 }
 
 fn polynomial_q30(coefficients: &[i32], x_q30: i32) -> i32 {

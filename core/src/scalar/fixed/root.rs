@@ -1,9 +1,12 @@
 //! Reciprocal and reciprocal square root of a normalised 32-bit number: a short table and two
 //! Newton steps, products of 32 by 32 bits only.
 
+use crate::scalar::multiply::unsigned;
+
 /// 1/x for `x_q32` in [2³¹, 2³²), that is x in [½, 1); 1/x in (1, 2] with 30 bits behind the
 /// point, clamped below 2. Relative error below 2⁻²⁹.
-#[inline(always)]
+#[cfg_attr(octray_armv6m, inline(never))]
+#[cfg_attr(not(octray_armv6m), inline(always))]
 pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
     let start_q15 = RECIPROCAL_Q15[(x_q32 >> 25) as usize & 63];
     let mut y_q30 = u32::from(start_q15) << 15;
@@ -11,14 +14,15 @@ pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
         // y ← y (2 − x y)
         let product_q30 = high(x_q32, y_q30);
         let rest_q30 = 0x8000_0000u32.wrapping_sub(product_q30);
-        y_q30 = ((u64::from(y_q30) * u64::from(rest_q30)) >> 30) as u32;
+        y_q30 = (unsigned(y_q30, rest_q30) >> 30) as u32;
     }
     y_q30.min(0x7fff_ffff)
 }
 
 /// 1/√x for `x_q32` in [2³⁰, 2³²), that is x in [¼, 1); 1/√x in (1, 2] with 30 bits behind the
 /// point, clamped below 2. Relative error below 2⁻²⁹.
-#[inline(always)]
+#[cfg_attr(octray_armv6m, inline(never))]
+#[cfg_attr(not(octray_armv6m), inline(always))]
 pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
     // Seven bits of x, the first of them set; which half of [¼, 1) they come from is the eighth.
     let upper = x_q32 >> 31;
@@ -30,7 +34,7 @@ pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
         let square_q28 = high(y_q30, y_q30);
         let product_q28 = high(x_q32, square_q28);
         let rest_q28 = 0x3000_0000u32.wrapping_sub(product_q28);
-        y_q30 = ((u64::from(y_q30) * u64::from(rest_q28)) >> 29) as u32;
+        y_q30 = (unsigned(y_q30, rest_q28) >> 29) as u32;
     }
     y_q30.min(0x7fff_ffff)
 }
@@ -38,7 +42,7 @@ pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
 /// The high half of the product.
 #[inline(always)]
 fn high(a: u32, b: u32) -> u32 {
-    ((u64::from(a) * u64::from(b)) >> 32) as u32
+    (unsigned(a, b) >> 32) as u32
 }
 
 /// 1/x in the middle of each 64th of [½, 1), with 15 bits behind the point, indexed by the six bits
