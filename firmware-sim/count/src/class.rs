@@ -32,7 +32,12 @@ impl Class {
 
     /// Of an instruction of Arm or RISC-V, disassembled.
     pub fn of(disassembly: &str) -> Self {
-        let mnemonic = disassembly.split_whitespace().next().unwrap_or_default();
+        // RISC-V's begins with the encoding, in four or eight hexadecimal digits.
+        let encoding = |word: &&str| {
+            matches!(word.len(), 4 | 8) && word.bytes().all(|b| b.is_ascii_hexdigit())
+        };
+        let mut words = disassembly.split_whitespace();
+        let mnemonic = words.find(|word| !encoding(word)).unwrap_or_default();
         let name = mnemonic.strip_prefix("c.").unwrap_or(mnemonic);
         let name = name.split('.').next().unwrap_or_default();
         let starts = |prefixes: &[&str]| prefixes.iter().any(|p| name.starts_with(p));
@@ -75,7 +80,10 @@ mod tests {
             ("ldr r0, [r1]", Class::LoadStore),
             ("push {r4, lr}", Class::LoadStore),
             ("vldr s0, [r1]", Class::LoadStore),
-            ("c.lwsp ra,12(sp)", Class::LoadStore),
+            (
+                "40b2              lw              ra,12(sp)",
+                Class::LoadStore,
+            ),
             ("beq #0x12", Class::Branch),
             ("bics r0, r1", Class::Other),
             ("cbz r0, #4", Class::Branch),
