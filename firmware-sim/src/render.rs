@@ -38,7 +38,7 @@ where
     let background = tracer.scene.background;
     let background = [background.x, background.y, background.z].map(S::level);
     // Blocks of two rows must not be cut.
-    let rows = strip.len() as u32 / width.max(1) & !(frame.block() - 1);
+    let rows = (strip.len() as u32 / width.max(1)) & !(frame.block() - 1);
     if rows == 0 {
         return Ok(());
     }

@@ -11,7 +11,7 @@ use octray_scenes::quantise::{View, quantise};
 use octray_scenes::tree::{Growth, TightTree};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::{Mutex, MutexGuard};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
@@ -78,9 +78,7 @@ struct Job {
 /// One board is built for at a time: they share a folder.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
-    ALONE
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner())
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn root() -> &'static Path {

@@ -17,7 +17,7 @@ pub use class::Class;
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::fmt::Write;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::{fs, ptr, slice};
 
 /// The version of the interface that this plugin speaks, for QEMU.
@@ -51,9 +51,7 @@ static STATE: Mutex<State> = Mutex::new(State {
 });
 
 fn with_state<T>(f: impl FnOnce(&mut State) -> T) -> T {
-    let mut state = STATE
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut state = STATE.lock().unwrap_or_else(PoisonError::into_inner);
     f(&mut state)
 }
 

@@ -1,0 +1,87 @@
+//! Baked scenes: what they are said to need, and the numbers that are written.
+
+use octray_scenes::bake::{BakeError, Baked, FORMATS, Options, bake};
+use octray_scenes::quantise::View;
+
+const HEAD: &str = "v 0 0 9 resolution 8 8 l 5 5 9 1";
+
+fn baked(text: &str, arith: &str, max_depth: u32) -> Result<Baked, BakeError> {
+    let scene = octray_scenes::parse(&format!("{HEAD} {text}")).unwrap();
+    let view = View {
+        size: None,
+        pixels_per_ray: 1,
+        samples: 1,
+        max_depth,
+    };
+    let options = Options {
+        name: "test",
+        view,
+        cut_off: 1.0 / 512.0,
+        tree: None,
+    };
+    bake(&scene, arith, &options)
+}
+
+fn line(baked: &Baked, start: &str) -> String {
+    let mut lines = baked.source.lines();
+    lines.find(|line| line.starts_with(start)).unwrap().into()
+}
+
+#[test]
+fn a_scene_needs_what_is_in_it_and_no_more() {
+    let matt = "f 0 0 0 1 1 1 0 0 0 0 0 0";
+    let mirror = "f 0 0 0 1 1 1 0 0 0 0 0.5 0";
+    let glass = "f 0 0 0 1 1 1 1 1 1 2.5 0.5 0.5 1.5";
+    let cases = [
+        (matt, "s 0 0 -5 1", 8, "needs::SPHERES | needs::SHADOWS", 0),
+        (
+            mirror,
+            "s 0 0 -5 1",
+            8,
+            "needs::SPHERES | needs::SHADOWS | needs::REFLECTION",
+            1,
+        ),
+        (
+            mirror,
+            "s 0 0 -5 1",
+            0,
+            "needs::SPHERES | needs::SHADOWS",
+            0,
+        ),
+        (
+            glass,
+            "box 0 0 -5 1 1 1",
+            3,
+            "needs::CUBOIDS | needs::SHADOWS | needs::SPECULAR | needs::FRACTIONS | \
+             needs::REFLECTION | needs::REFRACTION",
+            4,
+        ),
+    ];
+    for (surface, object, max_depth, needs, rays) in cases {
+        let baked = baked(&format!("{surface} {object}"), "f32", max_depth).unwrap();
+        let expected = format!("pub const NEEDS: needs::Needs = {needs};");
+        assert_eq!(line(&baked, "pub const NEEDS"), expected);
+        let expected = format!("pub const RAYS: usize = {rays};");
+        assert_eq!(line(&baked, "pub const RAYS"), expected);
+    }
+}
+
+#[test]
+fn numbers_are_bit_patterns() {
+    let scene = "f 0 0 0 1 1 1 0 0 0 0 0.5 0 s 0 0 -5 1";
+    let surface = |arith| line(&baked(scene, arith, 8).unwrap(), "    scene::Surface");
+    assert!(surface("i16f16").contains("diffuse: v(65536, 65536, 65536)"));
+    assert!(surface("i16f16").contains("reflect: n(32768)"));
+    assert!(surface("f32").contains("reflect: n(0x3f000000)"));
+}
+
+#[test]
+fn every_format_has_a_name_and_no_other_name_has_a_format() {
+    let scene = "f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1";
+    for name in FORMATS {
+        assert_eq!(baked(scene, name, 8).unwrap().format, name);
+    }
+    assert_eq!(baked(scene, "auto", 8).unwrap().format, "i4f28");
+    let unknown = baked(scene, "i1f1", 8);
+    assert_eq!(unknown, Err(BakeError::Unknown("i1f1".into())));
+}
