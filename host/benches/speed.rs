@@ -1,6 +1,7 @@
 //! How fast pictures are traced; the hash of every picture stands beside its time, and is checked.
 //!
-//! `cargo bench -p octray -- [--rounds N] [--print-hashes] [SCENE...]`
+//! `cargo bench -p octray -- [--rounds N] [--print-hashes] [SCENE...]`, where cargo looks for scenes
+//! from this package's folder: name them from the root.
 //!
 //! Every scene is rendered as by `octray render` with [`OPTIONS`], on one thread and then on two,
 //! once in each round; rounds go through all scenes, so that a machine that slows down for a while
@@ -103,7 +104,7 @@ fn run(args: &Args) -> Result<bool, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Failed(e.to_string()))?;
     let mut subjects = match args.scenes.is_empty() {
         true => built_in(folder.path())?,
-        false => args.scenes.iter().map(given).collect(),
+        false => args.scenes.iter().map(|path| given(path)).collect(),
     };
     for round in 1..=args.rounds {
         eprintln!("round {round} of {}", args.rounds);
@@ -155,9 +156,9 @@ struct Sample {
 }
 
 /// A scene file from the command line.
-fn given(path: &PathBuf) -> Subject {
+fn given(path: &Path) -> Subject {
     let name = path.file_stem().unwrap_or(path.as_os_str());
-    Subject::new(name.to_string_lossy().into_owned(), path.clone())
+    Subject::new(name.to_string_lossy().into_owned(), path.to_owned())
 }
 
 /// The scenes that are rendered if none is given; those that are generated are written to `folder`.
