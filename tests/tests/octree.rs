@@ -201,13 +201,16 @@ fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
     quantise::<S>(&scene, &view).expect("the scene fits every format")
 }
 
+/// A tree with its name and the scene in its order.
+type Roof<S, T> = (&'static str, Quantised<S>, T);
+
 /// One scene under all roofs. Building a tree puts the objects into its own order, so that each
 /// has a copy of its own.
 struct House<S: Quantize> {
     bare: Quantised<S>,
     all: Vec<ObjectRef>,
-    tight: (&'static str, Quantised<S>, TightTree<S::Plane>),
-    octants: Vec<(&'static str, Quantised<S>, OctantTree<S::Plane>)>,
+    tight: Roof<S, TightTree<S::Plane>>,
+    octants: Vec<Roof<S, OctantTree<S::Plane>>>,
 }
 
 impl<S: Quantize> House<S> {

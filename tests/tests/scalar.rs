@@ -403,7 +403,7 @@ fn fixed_point_agrees_with_another_library() {
     for _ in 0..100_000 {
         let [x, y] = [(); 2].map(|()| f64::from(rng.i32(..)) * 2f64.powi(rng.i32(-32..-16)));
         let [a, b] = [x, y].map(FixedI64::<U32>::from_num);
-        let product = a.wide_mul(b).to_bits() + (1 << 31) >> 32;
+        let product = (a.wide_mul(b).to_bits() + (1 << 31)) >> 32;
         let theirs = FixedI64::<U32>::from_bits(product as i64).to_num::<f64>();
         assert_eq!(
             (Fixed64::from_f64(x) * Fixed64::from_f64(y)).to_f64(),
