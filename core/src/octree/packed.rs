@@ -322,10 +322,10 @@ impl Along {
         };
         let ticks = ((apart * i64::from(self.inverse_q24)) >> (24 + TICK_BITS)) as i32;
         Slab {
-            near: ticks - MARGIN,
-            far: ticks + MARGIN,
+            near: ticks.wrapping_sub(MARGIN),
+            far: ticks.wrapping_add(MARGIN),
             step_q16: self.inverse_q24 >> 8,
-            shift: 24 - shift,
+            shift: 24u32.saturating_sub(shift),
             negative: self.negative,
         }
     }
@@ -352,9 +352,15 @@ impl Slab {
         let below = |steps: u32| ((steps * self.step_q16) >> self.shift) as i32;
         let above = |steps: u32| ((steps * (self.step_q16 + 1)) >> self.shift) as i32 + 1;
         let (near, far) = if self.negative {
-            (self.near - above(high), self.far - below(low))
+            (
+                self.near.wrapping_sub(above(high)),
+                self.far.wrapping_sub(below(low)),
+            )
         } else {
-            (self.near + below(low), self.far + above(high))
+            (
+                self.near.wrapping_add(below(low)),
+                self.far.wrapping_add(above(high)),
+            )
         };
         *enter = near.max(*enter);
         *exit = far.min(*exit);
