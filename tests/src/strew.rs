@@ -36,7 +36,7 @@ pub fn objects(seed: u64) -> String {
     }
     match seed % 6 {
         0 => strew.tiles(5),
-        1 => strew.boxes_on_a_plane(),
+        1 => strew.boxes_at_the_ground(0.0),
         2 => strew.blocks(3),
         3 => strew.shells(),
         4 => strew.needles(),
@@ -69,7 +69,7 @@ pub fn picture(seed: u64) -> String {
         let size = strew.between(0.25, 0.7);
         let centre = strew.inside(0.9);
         if strew.rng.u8(..8) == 0 && ground {
-            strew.boxes_on_a_plane();
+            strew.boxes_at_the_ground(1e-3);
         } else {
             strew.shape(i + seed as usize, centre, size);
         }
@@ -271,12 +271,13 @@ impl Strew {
         self.polygon(&corners.map(|[x, z]| [x * half, GROUND, z * half]));
     }
 
-    /// A box whose lower face lies in the ground's plane.
-    fn boxes_on_a_plane(&mut self) {
+    /// Boxes whose lower faces lie in the ground's plane, or a little above it: of two surfaces in
+    /// the same place it is rounding that says which is seen first.
+    fn boxes_at_the_ground(&mut self, above: f64) {
         for _ in 0..3 {
             let [x, _, z] = self.inside(0.8);
             let height = self.between(0.1, 0.6);
-            let place = self.place([x, GROUND + height / 2.0, z]);
+            let place = self.place([x, GROUND + above + height / 2.0, z]);
             let [side, height] = [0.3 * self.scale, height * self.scale];
             self.line(&format!("box {place} {side} {height} {side}"));
         }

@@ -43,7 +43,7 @@ fn the_scenes_look_as_the_model_says() {
     let mut failures = Vec::new();
     for path in shot::scene_files() {
         let source = fs::read_to_string(&path).unwrap();
-        let shot = Shot::new(Arith::F64).size(96, 96);
+        let shot = Shot::new(Arith::F64).size(100, 100);
         failures.extend(compare(&shot::stem(&path), &source, &shot));
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
