@@ -1,4 +1,4 @@
-//! Which objects a ray has to be tested against: three trees in lent memory, and none.
+//! Which objects a ray has to be tested against: four trees in lent memory, and none.
 //!
 //! All give exactly what testing every object gives, in every arithmetic. The proof has three
 //! parts.
@@ -12,6 +12,7 @@
 mod build;
 mod list;
 mod octants;
+mod packed;
 mod plane;
 mod search;
 mod tight;
@@ -20,6 +21,7 @@ mod touch;
 pub use build::{BuildError, Options, Summary};
 pub use list::List;
 pub use octants::{Link, Octant, Octants, Variant};
+pub use packed::{PACKED_STACK, Packed, PackedStack};
 pub use plane::{Faces, Plane, Slope};
 pub use tight::{Node, Tight, TightMemory};
 
@@ -42,8 +44,7 @@ pub struct Hit<S> {
 pub const STACK: usize = 256;
 const _: () = assert!(7 * (build::MAX_DEPTH as usize + 1) < STACK);
 
-/// The nodes that wait while a tree is walked, with the distance at which each is entered. Lent,
-/// since clearing it for each ray would cost more than the walk.
+/// The nodes that wait while a tree is walked, with the distance at which each is entered.
 #[derive(Clone, Copy, Debug)]
 pub struct Stack<P>([(u32, P); STACK]);
 
@@ -55,12 +56,16 @@ impl<P: Plane> Default for Stack<P> {
 
 /// Finds what rays meet.
 pub trait Accelerator<S: Scalar>: Sync {
+    /// The nodes that wait while it is walked. Lent, since clearing it for each ray would cost
+    /// more than the walk.
+    type Stack: Default + Send;
+
     /// The first object that the ray meets at t > 0.
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
         ray: &Ray<S>,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut Self::Stack,
         observer: &mut O,
     ) -> Option<Hit<S>>;
 
@@ -70,7 +75,7 @@ pub trait Accelerator<S: Scalar>: Sync {
         scene: &Scene<'_, S>,
         ray: &Ray<S>,
         limit: S,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut Self::Stack,
         observer: &mut O,
     ) -> Option<ObjectRef>;
 }

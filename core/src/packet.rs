@@ -80,7 +80,7 @@ impl<S: Scalar> Frame<S> {
         &self,
         rows: Range<u32>,
         tracer: &Tracer<'_, S, A>,
-        workspace: &mut Workspace<'_, S>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
         mut put: impl FnMut(u32, u32, Vec3<S>),
     ) {
@@ -109,7 +109,7 @@ impl<S: Scalar> Frame<S> {
         column: u32,
         row: u32,
         tracer: &Tracer<'_, S, A>,
-        workspace: &mut Workspace<'_, S>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Vec3<S> {
         if self.samples == 1 {

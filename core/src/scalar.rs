@@ -15,6 +15,7 @@ mod fixed;
 mod float;
 
 pub use approx::Approx;
+pub(crate) use fixed::reciprocal_q30;
 pub use fixed::{Fixed, Fixed64, reset_saturations, saturations};
 
 use crate::octree::{Plane, Slope};
@@ -133,6 +134,17 @@ pub trait Scalar:
     fn max(self, other: Self) -> Self {
         if other > self { other } else { self }
     }
+
+    /// A coordinate or a length on the packed tree's grid: an integer, with `GRID_SLACK` at most
+    /// between what a ray's computed point rounds to and where the ray truly is. Coordinates of a
+    /// scene, and their differences, stay below 2³¹.
+    fn grid(self) -> i32;
+
+    /// See [`Scalar::grid`].
+    const GRID_SLACK: i32;
+
+    /// A direction's component with 30 bits behind the point.
+    fn slope_q30(self) -> i32;
 
     /// The number that the octree's planes and ray parameters are held in.
     type Plane: Plane;

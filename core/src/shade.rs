@@ -1,7 +1,7 @@
 //! The light that a surface sends back by itself: ambient, diffuse and specular (thesis 3.2).
 
 use crate::observe::{Observer, RayKind};
-use crate::octree::{Accelerator, Stack};
+use crate::octree::Accelerator;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::scene::{Scene, Surface};
@@ -46,7 +46,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S>, O: Observer>(
     accelerator: &A,
     surface: &Surface<S>,
     point: &Point<S>,
-    stack: &mut Stack<S::Plane>,
+    stack: &mut A::Stack,
     blockers: &mut [Option<ObjectRef>],
     observer: &mut O,
 ) -> Vec3<S> {

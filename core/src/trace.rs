@@ -1,7 +1,7 @@
 //! Whitted's recursion, unrolled onto a bounded stack.
 
 use crate::observe::{Observer, RayKind};
-use crate::octree::{Accelerator, Hit, Stack};
+use crate::octree::{Accelerator, Hit};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::scene::{Attributes, Scene, Surface};
@@ -34,16 +34,16 @@ impl<S: Scalar> Pending<S> {
 
 /// The memory one thread traces with, lent and kept from ray to ray.
 #[derive(Debug)]
-pub struct Workspace<'a, S: Scalar> {
+pub struct Workspace<'a, S, K> {
     /// Room for the rays that wait: one more than the deepest bounce.
     pub rays: &'a mut [Pending<S>],
-    /// Room for the octree's walk.
-    pub stack: &'a mut Stack<S::Plane>,
+    /// Room for the tree's walk, [`Accelerator::Stack`].
+    pub stack: &'a mut K,
     /// What blocked each light last; may be shorter than the list of lights.
     pub blockers: &'a mut [Option<ObjectRef>],
 }
 
-impl<S: Scalar> Workspace<'_, S> {
+impl<S, K> Workspace<'_, S, K> {
     /// Forgets what blocked the lights, so that what is counted does not depend on the past.
     pub fn forget(&mut self) {
         self.blockers.fill(None);
@@ -68,7 +68,7 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
     pub fn radiance<O: Observer>(
         &self,
         ray: Ray<S>,
-        workspace: &mut Workspace<'_, S>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Vec3<S> {
         let mut sum = Vec3::ZERO;
@@ -110,7 +110,7 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
     pub fn nearest<O: Observer>(
         &self,
         ray: &Ray<S>,
-        workspace: &mut Workspace<'_, S>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
         self.accelerator
@@ -124,7 +124,7 @@ impl<S: Scalar, A: Accelerator<S>> Tracer<'_, S, A> {
         &self,
         from: &Pending<S>,
         hit: Hit<S>,
-        workspace: &mut Workspace<'_, S>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
         waiting: &mut usize,
         observer: &mut O,
     ) -> Vec3<S> {

@@ -113,6 +113,8 @@ pub enum Tree {
     /// Up to eight tight boxes per node, every object in one leaf.
     #[default]
     Tight,
+    /// The tight tree in few bytes, walked in integers: what small targets use.
+    Packed,
     /// Octants with cluster boxes, one merged with three empty ones where possible.
     Modified,
     /// Octants split at the centre, objects linked into every leaf they touch.
@@ -181,6 +183,7 @@ impl Tree {
     pub fn name(self) -> &'static str {
         match self {
             Self::Tight => "tight",
+            Self::Packed => "packed",
             Self::Modified => "modified",
             Self::Plain => "plain",
             Self::None => "none",

@@ -11,13 +11,13 @@ use crate::render::Traced;
 use crate::schedule::run_packets;
 use crate::stats::{Octree, Rays};
 use octray_core::observe::{Counters, RayKind};
-use octray_core::octree::{self, Accelerator, List, Options, Stack, Summary, Variant};
+use octray_core::octree::{self, Accelerator, List, Options, Summary, Variant};
 use octray_core::scalar::{self, Approx, Fixed, Fixed64, Quantize};
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{self, Prepared, View};
-use octray_scenes::tree::{Growth, OctantTree, TightTree, every_object};
+use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
 use std::time::Instant;
 
 /// Trace what the job asks for.
@@ -93,15 +93,15 @@ impl Task<'_> {
             .map_err(|overflow| Error::Failed(overflow.to_string()))?;
         let options = &self.job.tree;
         let default_depth = match options.kind {
-            Tree::Tight | Tree::None => 24,
+            Tree::Tight | Tree::Packed | Tree::None => 24,
             Tree::Plain | Tree::Modified => 8,
         };
         let growth = Growth {
             options: Options {
                 depth: options.depth.unwrap_or(default_depth),
-                leaf_size: options.leaf_size.map_or(2, |n| n.get()),
+                leaf_size: options.leaf_size.map_or(2, std::num::NonZero::get),
             },
-            arena: options.arena.map(|n| n.get()),
+            arena: options.arena.map(std::num::NonZero::get),
         };
         let link = match options.link {
             Link::Shape => octree::Link::Shape,
@@ -110,6 +110,13 @@ impl Task<'_> {
         match options.kind {
             Tree::Tight => {
                 let (tree, summary) = TightTree::build(&mut prepared.scene, &growth);
+                self.picture(&prepared, &tree.tree(), summary, begin)
+            }
+            Tree::Packed => {
+                let (tree, summary) =
+                    PackedTree::build(&mut prepared.scene, &growth).map_err(|_| {
+                        Error::Failed("a packed tree holds at most 32767 objects".into())
+                    })?;
                 self.picture(&prepared, &tree.tree(), summary, begin)
             }
             Tree::Modified | Tree::Plain => {
@@ -210,7 +217,7 @@ impl Task<'_> {
             self.job.work.threads,
             self.job.work.schedule,
             self.interrupt,
-            |_| State::<S>::new(self.job.view.max_depth, scene.lights.len()),
+            |_| State::<S, A::Stack>::new(self.job.view.max_depth, scene.lights.len()),
             |state, index| {
                 let Some(mut packet) = packets.take(index) else {
                     return;
@@ -245,18 +252,18 @@ impl Task<'_> {
 }
 
 /// What one thread works with.
-struct State<S: Quantize> {
+struct State<S: Quantize, K> {
     rays: Vec<Pending<S>>,
-    stack: Stack<S::Plane>,
+    stack: K,
     blockers: Vec<Option<octray_core::shape::ObjectRef>>,
     counters: Counters,
 }
 
-impl<S: Quantize> State<S> {
+impl<S: Quantize, K: Default> State<S, K> {
     fn new(max_depth: u32, lights: usize) -> Self {
         Self {
             rays: vec![Pending::EMPTY; max_depth as usize + 2],
-            stack: Stack::default(),
+            stack: K::default(),
             blockers: vec![None; lights],
             counters: Counters::default(),
         }

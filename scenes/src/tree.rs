@@ -2,7 +2,7 @@
 
 use crate::quantise::Quantised;
 use octray_core::octree::{
-    Link, Node, Octant, Octants, Options, Summary, Tight, TightMemory, Variant,
+    BuildError, Link, Node, Octant, Octants, Options, Packed, Summary, Tight, TightMemory, Variant,
 };
 use octray_core::ray::Bounds;
 use octray_core::scalar::Quantize;
@@ -60,6 +60,51 @@ impl<P: octray_core::octree::Plane> TightTree<P> {
     pub fn tree(&self) -> Tight<'_, P> {
         Tight {
             nodes: &self.nodes,
+            links: &self.links,
+        }
+    }
+}
+
+/// A packed tree.
+#[derive(Clone, Debug)]
+pub struct PackedTree {
+    /// The nodes.
+    pub words: Vec<u32>,
+    /// The objects, leaf by leaf.
+    pub links: Vec<ObjectRef>,
+}
+
+impl PackedTree {
+    /// Builds the tree, and puts the scene's objects into the order of its leaves. The arena is
+    /// counted in nodes of eight children, 20 words each.
+    ///
+    /// # Errors
+    /// If there are more objects than a packed tree can hold.
+    pub fn build<S: Quantize>(
+        scene: &mut Quantised<S>,
+        growth: &Growth,
+    ) -> Result<(Self, Summary), BuildError> {
+        let count = scene.shapes().len();
+        let mut links = vec![ObjectRef::default(); count];
+        let mut boxes = vec![Bounds::default(); count];
+        let mut words = vec![0; 20 * growth.arena.unwrap_or(count + 1)];
+        let (tree, summary) = Packed::build(
+            &scene.shapes(),
+            &mut words,
+            &mut links,
+            &mut boxes,
+            growth.options,
+        )?;
+        let used = tree.words.len();
+        words.truncate(used);
+        scene.reorder(&mut links);
+        Ok((Self { words, links }, summary))
+    }
+
+    /// The tree as the tracer sees it.
+    pub fn tree(&self) -> Packed<'_> {
+        Packed {
+            words: &self.words,
             links: &self.links,
         }
     }

@@ -4,7 +4,7 @@
 use fastrand::Rng;
 use octray::job::{self, Arith, Tree};
 use octray_core::observe::Counters;
-use octray_core::octree::{Accelerator, Link, List, Options, Plane, Stack, Variant};
+use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
 use octray_core::ray::{Bounds, Ray};
 use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_core::shape::ObjectRef;
@@ -12,7 +12,7 @@ use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::{Axis, Vec3, vec3};
 use octray_scenes::generate::{Kind, Spec};
 use octray_scenes::quantise::{Prepared, Quantised, View, quantise};
-use octray_scenes::tree::{Growth, OctantTree, TightTree, every_object};
+use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
 use octray_tests::shot::{self, Shot, scene_files};
 use octray_tests::strew;
 use std::collections::BTreeMap;
@@ -57,7 +57,7 @@ fn pictures_are_the_same() {
                 (traced.picture.levels().to_vec(), traced.rays)
             };
             let (picture, rays) = take(Tree::None, 0, job::Link::Shape);
-            for kind in [Tree::Tight, Tree::Modified, Tree::Plain] {
+            for kind in [Tree::Tight, Tree::Packed, Tree::Modified, Tree::Plain] {
                 for (arena, link) in [
                     (0, job::Link::Shape),
                     (0, job::Link::Box),
@@ -118,6 +118,8 @@ fn no_ray_panics<S: Quantize>() {
             shoot(&house.bare, &List(&house.all), ray, limit, &mut memory);
             let (_, scene, tree) = &house.tight;
             shoot(scene, &tree.tree(), ray, limit, &mut memory);
+            let (_, scene, tree) = &house.packed;
+            shoot(scene, &tree.tree(), ray, limit, &mut memory);
             for (scene, tree) in scenes.clone().zip(trees.clone()) {
                 shoot(scene, &tree, ray, limit, &mut memory);
             }
@@ -128,7 +130,6 @@ fn no_ray_panics<S: Quantize>() {
 /// What a tracer works with.
 struct Memory<S: Quantize> {
     rays: Vec<Pending<S>>,
-    stack: Stack<S::Plane>,
     blockers: Vec<Option<ObjectRef>>,
 }
 
@@ -136,21 +137,21 @@ impl<S: Quantize> Memory<S> {
     fn new() -> Self {
         Self {
             rays: vec![Pending::EMPTY; 5],
-            stack: Stack::default(),
             blockers: vec![None; 2],
         }
     }
 }
 
 /// All that can be done with a ray.
-fn shoot<S: Quantize>(
+fn shoot<S: Quantize, A: Accelerator<S>>(
     scene: &Quantised<S>,
-    tree: &impl Accelerator<S>,
+    tree: &A,
     ray: Ray<S>,
     limit: S,
     memory: &mut Memory<S>,
 ) {
     let scene = scene.scene();
+    let mut stack = A::Stack::default();
     let tracer = Tracer {
         scene: &scene,
         accelerator: tree,
@@ -159,12 +160,12 @@ fn shoot<S: Quantize>(
     };
     let mut workspace = Workspace {
         rays: &mut memory.rays,
-        stack: &mut memory.stack,
+        stack: &mut stack,
         blockers: &mut memory.blockers,
     };
     let colour = tracer.radiance(ray, &mut workspace, &mut Counters::default());
     let _ = colour.to_array().map(S::level);
-    tree.any_hit(&scene, &ray, limit, &mut memory.stack, &mut ());
+    tree.any_hit(&scene, &ray, limit, &mut stack, &mut ());
 }
 
 /// A number, most often one that hardly any scene has.
@@ -210,6 +211,7 @@ struct House<S: Quantize> {
     bare: Quantised<S>,
     all: Vec<ObjectRef>,
     tight: Roof<S, TightTree<S::Plane>>,
+    packed: Roof<S, PackedTree>,
     octants: Vec<Roof<S, OctantTree<S::Plane>>>,
 }
 
@@ -244,6 +246,11 @@ impl<S: Quantize> House<S> {
                 let (tree, _) = TightTree::build(&mut scene, &tight.1);
                 (tight.0, scene, tree)
             },
+            packed: {
+                let mut scene = bare.clone();
+                let (tree, _) = PackedTree::build(&mut scene, &tight.1).expect("few objects");
+                ("packed", scene, tree)
+            },
             octants: octants
                 .into_iter()
                 .map(|(name, growth, variant, link)| {
@@ -256,9 +263,8 @@ impl<S: Quantize> House<S> {
     }
 
     fn compare(&self, ray: &Ray<S>, rng: &mut Rng, wrong: &mut Wrong, case: &str) {
-        let mut stack = Stack::default();
         let list = List(&self.all);
-        let nearest = seen(&self.bare, &list, ray, &mut stack);
+        let nearest = seen(&self.bare, &list, ray);
         wrong.rays += 1;
         wrong.hits += u64::from(nearest.is_some());
         // How far an any-hit ray goes: everywhere; up to the hit, a little short of it, anywhere.
@@ -269,7 +275,7 @@ impl<S: Quantize> House<S> {
                 t * part[rng.usize(..3)]
             }),
         ];
-        let blocked = limits.map(|limit| meets(&self.bare, &list, ray, limit, &mut stack));
+        let blocked = limits.map(|limit| meets(&self.bare, &list, ray, limit));
         for (&limit, &blocked) in limits.iter().zip(&blocked) {
             let reached = nearest.is_some_and(|(t, _)| t <= limit);
             wrong.check("list", reached == blocked, || {
@@ -286,46 +292,52 @@ impl<S: Quantize> House<S> {
         };
         let (name, scene, tree) = &self.tight;
         let tree = tree.tree();
-        let got = seen(scene, &tree, ray, &mut stack);
+        let got = seen(scene, &tree, ray);
         check(
             name,
             got,
-            &limits.map(|limit| meets(scene, &tree, ray, limit, &mut stack)),
+            &limits.map(|limit| meets(scene, &tree, ray, limit)),
+        );
+        let (name, scene, tree) = &self.packed;
+        let tree = tree.tree();
+        let got = seen(scene, &tree, ray);
+        check(
+            name,
+            got,
+            &limits.map(|limit| meets(scene, &tree, ray, limit)),
         );
         for (name, scene, tree) in &self.octants {
             let tree = tree.tree();
-            let got = seen(scene, &tree, ray, &mut stack);
+            let got = seen(scene, &tree, ray);
             check(
                 name,
                 got,
-                &limits.map(|limit| meets(scene, &tree, ray, limit, &mut stack)),
+                &limits.map(|limit| meets(scene, &tree, ray, limit)),
             );
         }
     }
 }
 
 /// At which distance a ray meets which object of the file first.
-fn seen<S: Quantize>(
+fn seen<S: Quantize, A: Accelerator<S>>(
     scene: &Quantised<S>,
-    tree: &impl Accelerator<S>,
+    tree: &A,
     ray: &Ray<S>,
-    stack: &mut Stack<S::Plane>,
 ) -> Option<(S, u32)> {
     let scene = scene.scene();
-    tree.nearest(&scene, ray, stack, &mut ())
+    tree.nearest(&scene, ray, &mut A::Stack::default(), &mut ())
         .map(|hit| (hit.t, scene.attributes_of(hit.object).id))
 }
 
 /// Whether a ray meets anything within a limit; what it is said to meet it does meet.
-fn meets<S: Quantize>(
+fn meets<S: Quantize, A: Accelerator<S>>(
     scene: &Quantised<S>,
-    tree: &impl Accelerator<S>,
+    tree: &A,
     ray: &Ray<S>,
     limit: S,
-    stack: &mut Stack<S::Plane>,
 ) -> bool {
     let scene = scene.scene();
-    let found = tree.any_hit(&scene, ray, limit, stack, &mut ());
+    let found = tree.any_hit(&scene, ray, limit, &mut A::Stack::default(), &mut ());
     if let Some(object) = found {
         assert!(scene.shapes.hit(object, ray, limit).is_some());
     }
@@ -338,7 +350,6 @@ struct Shots<'a, S: Quantize> {
     eye: Vec3<S>,
     /// The box around all objects.
     world: Bounds<S>,
-    stack: Stack<S::Plane>,
 }
 
 impl<'a, S: Quantize> Shots<'a, S> {
@@ -357,7 +368,6 @@ impl<'a, S: Quantize> Shots<'a, S> {
             house,
             eye: prepared.frame.camera().origin,
             world,
-            stack: Stack::default(),
         }
     }
 
@@ -431,7 +441,7 @@ impl<'a, S: Quantize> Shots<'a, S> {
                 let list = List(&self.house.all);
                 let scene = self.house.bare.scene();
                 let mut origin = within(&self.world, rng);
-                if let Some(hit) = list.nearest(&scene, &ray, &mut self.stack, &mut ()) {
+                if let Some(hit) = list.nearest(&scene, &ray, &mut (), &mut ()) {
                     let contact = shapes.contact(hit.object, &ray, hit.t);
                     origin = match rng.u8(..3) {
                         0 => ray.at(hit.t),

@@ -71,7 +71,12 @@ fn fixed_point_links_no_float_no_formatting_and_no_panic() {
             }
         }
     }
-    let entries = ["octray_tight", "octray_octants", "octray_list"];
+    let entries = [
+        "octray_tight",
+        "octray_packed",
+        "octray_octants",
+        "octray_list",
+    ];
     assert!(entries.iter().all(|e| defined.contains(*e)), "{defined:?}");
 
     let strange: Vec<_> = wanted

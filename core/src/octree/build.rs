@@ -4,6 +4,7 @@
 use super::Plane;
 use crate::ray::Bounds;
 use crate::scalar::Scalar;
+use crate::shape::ObjectRef;
 use crate::vec3::{Axis, Vec3, vec3};
 
 /// No tree is deeper than this, whatever the options say: the walk's stack is sized for it.
@@ -83,6 +84,76 @@ pub(super) fn sides<P: Plane>(bounds: &Bounds<P>) -> [P; 3] {
 pub(super) fn middle<P: Plane>(bounds: &Bounds<P>) -> Vec3<P> {
     let [x, y, z] = Axis::ALL.map(|a| bounds.low[a].middle(bounds.high[a]));
     vec3(x, y, z)
+}
+
+/// How many children a node has at most.
+pub(super) const WIDTH: usize = 8;
+
+/// A range of objects that one child will hold.
+#[derive(Clone, Copy)]
+pub(super) struct Group<P> {
+    pub(super) start: usize,
+    pub(super) end: usize,
+    pub(super) bounds: Bounds<P>,
+}
+
+impl<P: Plane> Group<P> {
+    pub(super) fn of(start: usize, end: usize, boxes: &[Bounds<P>]) -> Self {
+        let bounds =
+            (boxes.get(start..end).unwrap_or_default().iter()).fold(nothing(), |a, b| union(a, *b));
+        Self { start, end, bounds }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+/// Parts a range of objects into up to eight groups: the one of the largest surface is parted
+/// again and again, until each fits a leaf or there are eight.
+pub(super) fn split<P: Plane>(
+    start: usize,
+    end: usize,
+    links: &mut [ObjectRef],
+    boxes: &mut [Bounds<P>],
+    leaf_size: usize,
+) -> ([Group<P>; WIDTH], usize) {
+    let mut groups = [Group::of(start, end, boxes); WIDTH];
+    let mut count = 1;
+    while count < WIDTH {
+        let mut largest: Option<(P::Area, usize)> = None;
+        for (i, group) in groups.iter().enumerate().take(count) {
+            let area = P::half_area(sides(&group.bounds));
+            if group.len() > leaf_size && largest.is_none_or(|(a, _)| area > a) {
+                largest = Some((area, i));
+            }
+        }
+        let Some((_, i)) = largest else { break };
+        let Some(group) = groups.get_mut(i) else {
+            break;
+        };
+        let Group { start, end, .. } = *group;
+        let (Some(some_boxes), Some(some_links)) =
+            (boxes.get_mut(start..end), links.get_mut(start..end))
+        else {
+            break;
+        };
+        let middle = start + part(some_boxes, some_links);
+        *group = Group::of(start, middle, boxes);
+        groups[count] = Group::of(middle, end, boxes);
+        count += 1;
+    }
+    // A search for any hit tries the children in this order: the largest is the likeliest.
+    groups
+        .get_mut(..count)
+        .unwrap_or_default()
+        .sort_unstable_by(|a, b| {
+            let area = |group: &Group<P>| P::half_area(sides(&group.bounds));
+            area(b)
+                .partial_cmp(&area(a))
+                .unwrap_or(core::cmp::Ordering::Equal)
+        });
+    (groups, count)
 }
 
 const BINS: usize = 16;

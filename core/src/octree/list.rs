@@ -1,7 +1,7 @@
 //! No tree: every object is tested. The oracle for the trees, and the cheapest for a handful.
 
 use super::search::Search;
-use super::{Accelerator, Hit, Stack};
+use super::{Accelerator, Hit};
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -13,12 +13,14 @@ use crate::shape::ObjectRef;
 pub struct List<'a>(pub &'a [ObjectRef]);
 
 impl<S: Scalar> Accelerator<S> for List<'_> {
+    type Stack = ();
+
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S>,
         ray: &Ray<S>,
-        _: &mut Stack<S::Plane>,
+        (): &mut (),
         observer: &mut O,
     ) -> Option<Hit<S>> {
         let mut search = Search::<_, _, false>::new(scene, ray, scene.reach, observer);
@@ -32,7 +34,7 @@ impl<S: Scalar> Accelerator<S> for List<'_> {
         scene: &Scene<'_, S>,
         ray: &Ray<S>,
         limit: S,
-        _: &mut Stack<S::Plane>,
+        (): &mut (),
         observer: &mut O,
     ) -> Option<ObjectRef> {
         let mut search = Search::<_, _, true>::new(scene, ray, limit, observer);

@@ -405,6 +405,8 @@ impl<P: Plane> Octants<'_, P> {
 }
 
 impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
+    type Stack = Stack<S::Plane>;
+
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,

@@ -3,7 +3,7 @@
 //! It takes the thesis's cluster box to its end: a node's children are not the octants of a cell
 //! but the groups into which surface area says its objects fall.
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
+use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
 use super::search::Search;
 use super::{Accelerator, Faces, Hit, Plane, Slope, Stack};
 use crate::observe::Observer;
@@ -12,9 +12,6 @@ use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{ObjectRef, Shapes};
 use crate::vec3::{Axis, vec3};
-
-/// How many children a node has.
-const WIDTH: usize = 8;
 
 /// An inner node: the boxes of its children, plane by plane, and what lies in them.
 #[derive(Clone, Copy, Debug)]
@@ -81,26 +78,6 @@ pub struct Tight<'a, P> {
     pub nodes: &'a [Node<P>],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
-}
-
-/// A range of objects that one child will hold.
-#[derive(Clone, Copy)]
-struct Group<P> {
-    start: usize,
-    end: usize,
-    bounds: Bounds<P>,
-}
-
-impl<P: Plane> Group<P> {
-    fn of(start: usize, end: usize, boxes: &[Bounds<P>]) -> Self {
-        let bounds = (boxes.get(start..end).unwrap_or_default().iter())
-            .fold(build::nothing(), |a, b| build::union(a, *b));
-        Self { start, end, bounds }
-    }
-
-    fn len(&self) -> usize {
-        self.end - self.start
-    }
 }
 
 impl<'a, P: Plane> Tight<'a, P> {
@@ -172,7 +149,7 @@ fn grow<P: Plane>(
         summary.inner += 1;
         summary.depth = summary.depth.max(depth);
         let mut node = Node::EMPTY;
-        let (groups, count) = split(start as usize, end as usize, links, boxes, leaf_size);
+        let (groups, count) = build::split(start as usize, end as usize, links, boxes, leaf_size);
         for (child, group) in groups.iter().enumerate().take(count) {
             let fits = group.len() <= leaf_size;
             let room = nodes.get_mut(used).filter(|_| !fits && depth < deepest);
@@ -196,53 +173,6 @@ fn grow<P: Plane>(
         done += 1;
     }
     used
-}
-
-/// Parts a range of objects into up to eight groups: the one of the largest surface is parted
-/// again and again, until each fits a leaf or there are eight.
-fn split<P: Plane>(
-    start: usize,
-    end: usize,
-    links: &mut [ObjectRef],
-    boxes: &mut [Bounds<P>],
-    leaf_size: usize,
-) -> ([Group<P>; WIDTH], usize) {
-    let mut groups = [Group::of(start, end, boxes); WIDTH];
-    let mut count = 1;
-    while count < WIDTH {
-        let mut largest: Option<(P::Area, usize)> = None;
-        for (i, group) in groups.iter().enumerate().take(count) {
-            let area = P::half_area(build::sides(&group.bounds));
-            if group.len() > leaf_size && largest.is_none_or(|(a, _)| area > a) {
-                largest = Some((area, i));
-            }
-        }
-        let Some((_, i)) = largest else { break };
-        let Some(group) = groups.get_mut(i) else {
-            break;
-        };
-        let Group { start, end, .. } = *group;
-        let (Some(some_boxes), Some(some_links)) =
-            (boxes.get_mut(start..end), links.get_mut(start..end))
-        else {
-            break;
-        };
-        let middle = start + build::part(some_boxes, some_links);
-        *group = Group::of(start, middle, boxes);
-        groups[count] = Group::of(middle, end, boxes);
-        count += 1;
-    }
-    // A search for any hit tries the children in this order: the largest is the likeliest.
-    groups
-        .get_mut(..count)
-        .unwrap_or_default()
-        .sort_unstable_by(|a, b| {
-            let area = |group: &Group<P>| P::half_area(build::sides(&group.bounds));
-            area(b)
-                .partial_cmp(&area(a))
-                .unwrap_or(core::cmp::Ordering::Equal)
-        });
-    (groups, count)
 }
 
 /// The ray as the walk wants it.
@@ -355,6 +285,8 @@ impl<P: Plane> Tight<'_, P> {
 }
 
 impl<S: Scalar> Accelerator<S> for Tight<'_, S::Plane> {
+    type Stack = Stack<S::Plane>;
+
     // One copy of the walk per use: inlined into the tracer it would not fit the code cache.
     #[inline(never)]
     fn nearest<O: Observer>(

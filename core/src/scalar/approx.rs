@@ -190,6 +190,18 @@ impl<const N: u32> Scalar for Approx<N> {
         self + light
     }
 
+    #[inline(always)]
+    fn grid(self) -> i32 {
+        self.0.grid()
+    }
+
+    const GRID_SLACK: i32 = f32::GRID_SLACK;
+
+    #[inline(always)]
+    fn slope_q30(self) -> i32 {
+        self.0.slope_q30()
+    }
+
     type Plane = f32;
 
     #[inline(always)]

@@ -11,7 +11,8 @@ pub use wide::Fixed64;
 use super::{Exponent, Quantize, Scalar};
 use crate::octree::Slope;
 use core::ops::{Add, Mul, Neg, Sub};
-use root::{reciprocal_q30, rsqrt_q30};
+pub(crate) use root::reciprocal_q30;
+use root::rsqrt_q30;
 
 /// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28.
 ///
@@ -310,6 +311,18 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     #[inline(always)]
     fn accumulate(self, light: Self) -> Self {
         (self + light).min(Self::ONE)
+    }
+
+    #[inline(always)]
+    fn grid(self) -> i32 {
+        self.0
+    }
+
+    const GRID_SLACK: i32 = 4;
+
+    #[inline(always)]
+    fn slope_q30(self) -> i32 {
+        self.0 << (30 - F)
     }
 
     type Plane = i32;

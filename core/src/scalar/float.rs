@@ -113,6 +113,20 @@ macro_rules! float {
                 self + light
             }
 
+            // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
+            // a unit in `f32`, 2⁷ on the grid; points are off by a few.
+            #[inline(always)]
+            fn grid(self) -> i32 {
+                (self * (1 << 29) as Self) as i32
+            }
+
+            const GRID_SLACK: i32 = 1 << 10;
+
+            #[inline(always)]
+            fn slope_q30(self) -> i32 {
+                (self * (1 << 30) as Self) as i32
+            }
+
             type Plane = Self;
 
             #[inline(always)]

@@ -4,7 +4,7 @@
 
 use octray_core::camera::Camera;
 use octray_core::octree::{
-    Link, List, Node, Octant, Octants, Options, Tight, TightMemory, Variant,
+    Link, List, Octant, Octants, Options, Packed, PackedStack, Stack, Tight, TightMemory, Variant,
 };
 use octray_core::packet::{Frame, Region};
 use octray_core::ray::Bounds;
@@ -55,7 +55,7 @@ pub fn octray_tight(
     scene: &Scene<'_, Number>,
     memory: TightMemory<'_, i32>,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number>,
+    workspace: &mut Workspace<'_, Number, Stack<i32>>,
     row: &mut Row,
 ) {
     if let Ok((tree, _)) = Tight::build(&scene.shapes, memory, OPTIONS) {
@@ -71,7 +71,7 @@ pub fn octray_octants(
     links: &mut [ObjectRef],
     variant: Variant,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number>,
+    workspace: &mut Workspace<'_, Number, Stack<i32>>,
     row: &mut Row,
 ) {
     let built = Octants::build(&scene.shapes, nodes, links, OPTIONS, variant, Link::Shape);
@@ -86,11 +86,24 @@ pub fn octray_list(
     scene: &Scene<'_, Number>,
     objects: &[ObjectRef],
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number>,
+    workspace: &mut Workspace<'_, Number, ()>,
     row: &mut Row,
 ) {
     render!(scene, camera, &List(objects), workspace, row);
 }
 
-/// What a tight tree's memory is made of.
-pub type Memory = ([Node<i32>; 1], [Bounds<i32>; 1]);
+/// Renders with a packed tree built here.
+#[unsafe(no_mangle)]
+pub fn octray_packed(
+    scene: &Scene<'_, Number>,
+    words: &mut [u32],
+    links: &mut [ObjectRef],
+    boxes: &mut [Bounds<i32>],
+    camera: &Camera<Number>,
+    workspace: &mut Workspace<'_, Number, PackedStack>,
+    row: &mut Row,
+) {
+    if let Ok((tree, _)) = Packed::build(&scene.shapes, words, links, boxes, OPTIONS) {
+        render!(scene, camera, &tree, workspace, row);
+    }
+}

@@ -4,7 +4,7 @@
 /// 1/x for `x_q32` in [2³¹, 2³²), that is x in [½, 1); 1/x in (1, 2] with 30 bits behind the
 /// point, clamped below 2. Relative error below 2⁻²⁹.
 #[inline(always)]
-pub(super) fn reciprocal_q30(x_q32: u32) -> u32 {
+pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
     let start_q15 = RECIPROCAL_Q15[(x_q32 >> 25) as usize & 63];
     let mut y_q30 = u32::from(start_q15) << 15;
     for _ in 0..2 {

@@ -193,6 +193,18 @@ impl Scalar for Fixed64 {
         (self + light).min(Self::ONE)
     }
 
+    #[inline(always)]
+    fn grid(self) -> i32 {
+        (self.0 >> 32) as i32
+    }
+
+    const GRID_SLACK: i32 = 4;
+
+    #[inline(always)]
+    fn slope_q30(self) -> i32 {
+        (self.0 >> (F - 30)) as i32
+    }
+
     type Plane = i64;
 
     #[inline(always)]
