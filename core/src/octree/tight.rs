@@ -28,6 +28,8 @@ struct Word;
 
 impl Word {
     const LEAF: u32 = 1 << 31;
+    /// A leaf without links: even a ray whose numbers have gone astray ends there.
+    const NONE: u32 = u32::MAX;
 }
 
 impl<P: Plane> Node<P> {
@@ -41,7 +43,7 @@ impl<P: Plane> Node<P> {
             [P::MIN; WIDTH],
             [P::MIN; WIDTH],
         ],
-        children: [0; WIDTH],
+        children: [Word::NONE; WIDTH],
     };
 
     /// A node that is still to be split.
