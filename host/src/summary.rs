@@ -38,7 +38,7 @@ impl fmt::Display for Summary<'_> {
             stats.tests,
             &per_ray(stats.tests, rays.total()),
         )?;
-        count(f, "hits", stats.hits, "of the primary rays")?;
+        count(f, "hits", stats.hits, "  of the primary rays")?;
         if stats.saturations > 0 {
             count(f, "saturations", stats.saturations, "")?;
         }

@@ -262,8 +262,9 @@ impl Header {
 /// flatter ray is not asked when it crosses planes of this axis, only whether a box holds one of
 /// the coordinates it can take within its reach: a reciprocal would not fit, and a product with
 /// it would lose all digits. Errors of the first kind, in ticks: one each for rounding the
-/// origin's distance, the step's product and the reciprocal's (relative, below 2⁻²⁹ of 2³⁰), and
-/// the direction's (2⁻³⁰ of at least 2⁻⁷, over 2²³ ticks: one). `MARGIN` is their sum.
+/// origin's distance and the step's product, for the reciprocal (relative, the same in both
+/// products, so less than 2⁻²⁷ of at most 2²³) and for the direction (2⁻³⁰ of at least 2⁻⁷, over
+/// 2²³ ticks). `MARGIN` is their sum.
 #[derive(Clone, Copy)]
 struct Along {
     origin: i32,

@@ -2,7 +2,7 @@
 //! Newton steps, products of 32 by 32 bits only.
 
 /// 1/x for `x_q32` in [2³¹, 2³²), that is x in [½, 1); 1/x in (1, 2] with 30 bits behind the
-/// point, clamped below 2. Relative error below 2⁻²⁹.
+/// point, clamped below 2. Relative error below 2⁻²⁷.
 #[inline(always)]
 pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
     let start_q15 = RECIPROCAL_Q15[(x_q32 >> 25) as usize & 63];
@@ -17,7 +17,7 @@ pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
 }
 
 /// 1/√x for `x_q32` in [2³⁰, 2³²), that is x in [¼, 1); 1/√x in (1, 2] with 30 bits behind the
-/// point, clamped below 2. Relative error below 2⁻²⁹.
+/// point, clamped below 2. Relative error below 2⁻²⁷.
 #[inline(always)]
 pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {
     // Seven bits of x, the first of them set; which half of [¼, 1) they come from is the eighth.
