@@ -395,13 +395,6 @@ impl<P: Plane> Octants<'_, P> {
             }
         }
     }
-
-    /// The box around everything; inverted if there is nothing.
-    pub fn bounds(&self) -> Bounds<P> {
-        self.nodes
-            .first()
-            .map_or_else(build::nothing, |root| root.bounds)
-    }
 }
 
 impl<S: Scalar> Accelerator<S> for Octants<'_, S::Plane> {
