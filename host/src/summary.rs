@@ -38,7 +38,7 @@ impl fmt::Display for Summary<'_> {
             stats.tests,
             &per_ray(stats.tests, rays.total()),
         )?;
-        count(f, "hits", stats.hits, &per_ray(stats.hits, rays.total()))?;
+        count(f, "hits", stats.hits, "  of the primary rays")?;
         if stats.saturations > 0 {
             count(f, "saturations", stats.saturations, "")?;
         }
@@ -152,7 +152,7 @@ rays                  381,073
   transmitted               0
 voxel steps         1,234,567  3.24 per ray
 object tests          765,432  2.01 per ray
-hits                  180,000  0.47 per ray
+hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
 work          1,524,292 rays/s, 2 threads, 64 packets, dynamic schedule

@@ -33,7 +33,7 @@ pub struct Scene {
     pub normals: Vec<Point>,
 }
 
-/// The camera of MODEL.md in either of its forms.
+/// The camera of `docs/MODEL.md` in either of its forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Camera {
     /// The picture plane is z = 0 and one pixel (of the file's own resolution) is one unit.

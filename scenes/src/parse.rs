@@ -1,4 +1,4 @@
-//! Reading scene files: both dialects of MODEL.md from one stream of tokens.
+//! Reading scene files: both dialects of `docs/MODEL.md` from one stream of tokens.
 //!
 //! `token` cuts the source at white space, `entity` gathers a keyword and the numbers up to the
 //! next one, `build` turns each entity into its part of the scene and has it checked, `header`

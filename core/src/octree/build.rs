@@ -13,7 +13,7 @@ pub(super) const MAX_DEPTH: u32 = 24;
 /// How far a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Inner nodes above any leaf, at most; no more than [`MAX_DEPTH`] counts.
+    /// Inner nodes above any leaf, at most; no more than 24 count.
     pub depth: u32,
     /// A node with no more objects than this is a leaf; at least 1.
     pub leaf_size: u32,

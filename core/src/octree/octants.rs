@@ -396,13 +396,6 @@ impl<P: Plane> Octants<'_, P> {
             }
         }
     }
-
-    /// The box around everything; inverted if there is nothing.
-    pub fn bounds(&self) -> Bounds<P> {
-        self.nodes
-            .first()
-            .map_or_else(build::nothing, |root| root.bounds)
-    }
 }
 
 impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Octants<'_, S::Plane> {

@@ -263,8 +263,9 @@ impl Header {
 /// flatter ray is not asked when it crosses planes of this axis, only whether a box holds one of
 /// the coordinates it can take within its reach: a reciprocal would not fit, and a product with
 /// it would lose all digits. Errors of the first kind, in ticks: one each for rounding the
-/// origin's distance, the step's product and the reciprocal's (relative, below 2⁻²⁹ of 2³⁰), and
-/// the direction's (2⁻³⁰ of at least 2⁻⁷, over 2²³ ticks: one). `MARGIN` is their sum.
+/// origin's distance and the step's product, for the reciprocal (relative, the same in both
+/// products, so less than 2⁻²⁷ of at most 2²³) and for the direction (2⁻³⁰ of at least 2⁻⁷, over
+/// 2²³ ticks). `MARGIN` is their sum.
 #[derive(Clone, Copy)]
 struct Along {
     origin: i32,
@@ -321,10 +322,10 @@ impl Along {
         let product = if self.negative { -product } else { product };
         let ticks = (product >> (24 + TICK_BITS)) as i32;
         Slab {
-            near: ticks - MARGIN,
-            far: ticks + MARGIN,
+            near: ticks.wrapping_sub(MARGIN),
+            far: ticks.wrapping_add(MARGIN),
             step_q16: self.inverse_q24 >> 8,
-            shift: 24 - shift,
+            shift: 24u32.saturating_sub(shift),
             negative: self.negative,
         }
     }
@@ -351,9 +352,15 @@ impl Slab {
         let below = |steps: u32| ((steps * self.step_q16) >> self.shift) as i32;
         let above = |steps: u32| ((steps * (self.step_q16 + 1)) >> self.shift) as i32 + 1;
         let (near, far) = if self.negative {
-            (self.near - above(high), self.far - below(low))
+            (
+                self.near.wrapping_sub(above(high)),
+                self.far.wrapping_sub(below(low)),
+            )
         } else {
-            (self.near + below(low), self.far + above(high))
+            (
+                self.near.wrapping_add(below(low)),
+                self.far.wrapping_add(above(high)),
+            )
         };
         *enter = near.max(*enter);
         *exit = far.min(*exit);

@@ -294,10 +294,10 @@ macro_rules! fixed_plane {
 
         impl Slope<$t> {
             /// Of a component with the given sign whose reciprocal is mantissa · 2^−shift, with a
-            /// relative error below 2^−29; the mantissa has the component's sign.
+            /// relative error below 2^−27; the mantissa has the component's sign.
             #[inline(always)]
             pub fn new(negative: bool, mantissa: $t, shift: u8) -> Self {
-                let slack = if negative { -8 } else { 8 };
+                let slack = if negative { -16 } else { 16 };
                 Self {
                     negative,
                     near: Shifted {

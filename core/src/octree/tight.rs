@@ -12,7 +12,7 @@ use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{ObjectRef, Shapes};
-use crate::vec3::{Axis, vec3};
+use crate::vec3::Axis;
 
 /// An inner node: the boxes of its children, plane by plane, and what lies in them.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,8 @@ struct Word;
 
 impl Word {
     const LEAF: u32 = 1 << 31;
+    /// A leaf without links: even a ray whose numbers have gone astray ends there.
+    const NONE: u32 = u32::MAX;
 }
 
 impl<P: Plane> Node<P> {
@@ -42,7 +44,7 @@ impl<P: Plane> Node<P> {
             [P::MIN; WIDTH],
             [P::MIN; WIDTH],
         ],
-        children: [0; WIDTH],
+        children: [Word::NONE; WIDTH],
     };
 
     /// A node that is still to be split.
@@ -314,31 +316,5 @@ impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Tight<'_, S::Plane
         let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
         self.walk(&mut search, stack);
         search.found
-    }
-}
-
-impl<P: Plane> Tight<'_, P> {
-    /// The box around everything; inverted if there is nothing.
-    pub fn bounds(&self) -> Bounds<P> {
-        let mut all = build::nothing();
-        if let Some(node) = self.nodes.first() {
-            for k in 0..WIDTH {
-                let corner = |first: usize| {
-                    vec3(
-                        node.planes[first][k],
-                        node.planes[first + 1][k],
-                        node.planes[first + 2][k],
-                    )
-                };
-                all = build::union(
-                    all,
-                    Bounds {
-                        low: corner(0),
-                        high: corner(3),
-                    },
-                );
-            }
-        }
-        all
     }
 }

@@ -236,7 +236,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         Self(reciprocal.divide(self.0))
     }
 
-    // The quotient's relative error is below 2⁻²⁸, its rounding below one step.
+    // The quotient's relative error is below 2⁻²⁷, its rounding below one step.
     #[inline(always)]
     fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
         let limit = i64::from(limit.0) + i64::from(limit.0 >> 24) + 4;
@@ -297,7 +297,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         if exponent >= 0 {
             Self(self.0 << (exponent & 31))
         } else {
-            Self(self.0 >> (-exponent & 31))
+            Self(self.0 >> (exponent.unsigned_abs() & 31))
         }
     }
 
@@ -306,7 +306,9 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         if exponent >= 0 {
             Self(self.0 >> (exponent & 31))
         } else {
-            Self(saturate(i64::from(self.0) << (-exponent & 31)))
+            Self(saturate(
+                i64::from(self.0) << (exponent.unsigned_abs() & 31),
+            ))
         }
     }
 

@@ -159,7 +159,7 @@ impl<S: Scalar> Range<S> {
 pub struct Polygon<S: Scalar> {
     /// Its plane.
     pub plane: Flat<S>,
-    /// Its first vertex in [`super::Shapes::corners`].
+    /// Its first vertex in [`Outlines::corners`].
     pub first: u32,
     /// How many vertices it has.
     pub count: u32,

@@ -38,7 +38,8 @@ fn root_q31(x_q31: u32, f_q31: u32) -> u32 {
     let z_q30 = ((x_q31 << n) & 0x7fff_ffff) as i32 >> 1;
     let log_q30 = mul_q30(z_q30, polynomial_q30(&LOG2_Q30, z_q30));
     let minus_log_q30 = (i64::from(n) << 30) - i64::from(log_q30);
-    let y_q30 = (minus_log_q30 * i64::from(f_q31)) >> 31;
+    // Four bits less, or the product would need 66.
+    let y_q30 = ((minus_log_q30 >> 4) * i64::from(f_q31)) >> 27;
     // 2^−y = 2^−(whole + 1) · 2^g with g = 1 − (fraction of y).
     let whole = (y_q30 >> 30) as u32 + 1;
     let g_q30 = (1 << 30) - (y_q30 & 0x3fff_ffff) as i32;

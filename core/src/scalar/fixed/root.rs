@@ -4,7 +4,7 @@
 use crate::scalar::multiply::unsigned;
 
 /// 1/x for `x_q32` in [2³¹, 2³²), that is x in [½, 1); 1/x in (1, 2] with 30 bits behind the
-/// point, clamped below 2. Relative error below 2⁻²⁹.
+/// point, clamped below 2. Relative error below 2⁻²⁷.
 #[cfg_attr(octray_armv6m, inline(never))]
 #[cfg_attr(not(octray_armv6m), inline(always))]
 pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
@@ -20,7 +20,7 @@ pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
 }
 
 /// 1/√x for `x_q32` in [2³⁰, 2³²), that is x in [¼, 1); 1/√x in (1, 2] with 30 bits behind the
-/// point, clamped below 2. Relative error below 2⁻²⁹.
+/// point, clamped below 2. Relative error below 2⁻²⁷.
 #[cfg_attr(octray_armv6m, inline(never))]
 #[cfg_attr(not(octray_armv6m), inline(always))]
 pub(super) fn rsqrt_q30(x_q32: u32) -> u32 {

@@ -177,7 +177,7 @@ impl Scalar for Fixed64 {
         if exponent >= 0 {
             Self(self.0 << (exponent & 63))
         } else {
-            Self(self.0 >> (-exponent & 63))
+            Self(self.0 >> (exponent.unsigned_abs() & 63))
         }
     }
 
@@ -186,7 +186,7 @@ impl Scalar for Fixed64 {
         if exponent >= 0 {
             Self(self.0 >> (exponent & 63))
         } else {
-            saturate(i128::from(self.0) << (-exponent & 63))
+            saturate(i128::from(self.0) << (exponent.unsigned_abs() & 63))
         }
     }
 

@@ -1,0 +1,118 @@
+//! Pictures made by octray, without its command line.
+
+use octray::interrupt::Interrupt;
+use octray::job::{
+    Arith, Link, PixelsPerRay, RenderJob, StatsFormat, Tree, TreeOptions, ViewOptions, WorkOptions,
+};
+use octray::picture::{RasDepth, Target};
+use octray::progress::Progress;
+use octray::render::Traced;
+use octray::schedule::Schedule;
+use octray_scenes::model::Scene;
+use std::fs;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::{Path, PathBuf};
+
+/// The scene files of the project, by name.
+///
+/// # Panics
+/// If they cannot be listed, or there are none.
+pub fn scene_files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let entries = fs::read_dir(folder).expect("the scenes are beside the tests");
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("a folder can be listed").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "scene"))
+        .collect();
+    files.sort();
+    assert!(!files.is_empty());
+    files
+}
+
+/// A file's name without folder and extension.
+pub fn stem(path: &Path) -> String {
+    path.file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// Reads a scene file.
+///
+/// # Panics
+/// If it has mistakes.
+pub fn read(path: &Path) -> Scene {
+    octray_scenes::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// How a picture is made; the rest is as the command has it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// The arithmetic.
+    pub arith: Arith,
+    /// The tree.
+    pub tree: TreeOptions,
+    /// What is traced.
+    pub view: ViewOptions,
+}
+
+impl Shot {
+    /// The command's defaults in this arithmetic.
+    pub fn new(arith: Arith) -> Self {
+        Self {
+            arith,
+            tree: TreeOptions {
+                kind: Tree::Tight,
+                depth: None,
+                leaf_size: None,
+                arena: None,
+                link: Link::Shape,
+            },
+            view: ViewOptions {
+                size: None,
+                pixels_per_ray: PixelsPerRay::One,
+                samples: 1,
+                max_depth: 8,
+                cut_off: 1.0 / 512.0,
+            },
+        }
+    }
+
+    /// The same with another size.
+    #[must_use]
+    pub fn size(mut self, width: u32, height: u32) -> Self {
+        self.view.size = Some((width, height));
+        self
+    }
+
+    /// The same with another kind of tree.
+    #[must_use]
+    pub fn tree(mut self, kind: Tree) -> Self {
+        self.tree.kind = kind;
+        self
+    }
+
+    /// Makes the picture.
+    ///
+    /// # Panics
+    /// If the scene does not fit the arithmetic.
+    pub fn take(&self, scene: &Scene) -> Traced {
+        let job = RenderJob {
+            scene: PathBuf::new(),
+            output: Target::new("unwritten.png".into()).expect("a known format"),
+            ras_depth: RasDepth::Eight,
+            arith: self.arith,
+            tree: self.tree,
+            view: self.view,
+            work: WorkOptions {
+                threads: NonZeroUsize::MIN,
+                schedule: Schedule::Dynamic,
+                packet_rows: NonZeroU32::MIN.saturating_add(3),
+            },
+            stats: StatsFormat::Text,
+        };
+        let progress = Progress::hidden();
+        octray::trace::trace(scene, &job, &progress, &Interrupt::new())
+            .unwrap_or_else(|e| panic!("{e}"))
+    }
+}

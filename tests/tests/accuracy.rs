@@ -1,0 +1,133 @@
+//! How far each arithmetic's picture may be from that in `f64`, at 256 × 256 on every scene.
+//!
+//! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
+
+use octray::job::Arith;
+use octray::metric::Difference;
+use octray_core::octree::{Accelerator, Stack};
+use octray_core::scalar::{Approx, Fixed, Quantize};
+use octray_scenes::model::Scene;
+use octray_scenes::quantise::{View, quantise};
+use octray_scenes::tree::{Growth, TightTree};
+use octray_tests::shot::{self, Shot};
+use std::fs;
+use std::path::PathBuf;
+
+const SIDE: u32 = 256;
+
+/// The least peak signal-to-noise ratio in dB, by arithmetic.
+const LEAST_PSNR: [(Arith, f64); 3] = [
+    (Arith::F32, 50.0),
+    (Arith::Approx2, 45.0),
+    (Arith::Auto, 40.0),
+];
+
+/// The largest share of pixels that may see another object first.
+const OTHER_OBJECTS: f64 = 0.001;
+
+#[test]
+fn pictures_are_near_those_in_f64() {
+    let mut table = format!(
+        "{:<14} {:<8} {:>7} {:>8} {:>8} {:>8} {:>12}\n",
+        "scene", "format", "dB", "largest", "beyond 8", "others", "saturations"
+    );
+    let mut failures = Vec::new();
+    for path in scenes() {
+        let name = shot::stem(&path);
+        let scene = shot::read(&path);
+        let reference = Shot::new(Arith::F64).size(SIDE, SIDE).take(&scene);
+        let first = first_objects::<f64>(&scene);
+        for (arith, least) in LEAST_PSNR {
+            let traced = Shot::new(arith).size(SIDE, SIDE).take(&scene);
+            let difference = Difference::between(&reference.picture, &traced.picture)
+                .expect("they are of one size");
+            let others = first
+                .iter()
+                .zip(first_objects_in(&traced.format, &scene))
+                .filter(|(a, b)| **a != *b)
+                .count();
+            table += &format!(
+                "{name:<14} {:<8} {:>7.2} {:>8} {:>8} {others:>8} {:>12}\n",
+                traced.format,
+                difference.psnr(),
+                difference.largest,
+                difference.beyond_8,
+                traced.saturations
+            );
+            let share = others as f64 / first.len() as f64;
+            if difference.psnr() < least || share > OTHER_OBJECTS || traced.saturations > 0 {
+                failures.push(format!(
+                    "{name} in {}: {:.2} dB of {least}, {others} pixels see another object, \
+                     {} saturations",
+                    traced.format,
+                    difference.psnr(),
+                    traced.saturations
+                ));
+            }
+        }
+    }
+    println!("{table}");
+    assert!(failures.is_empty(), "{}\n{table}", failures.join("\n"));
+}
+
+fn scenes() -> Vec<PathBuf> {
+    let mut scenes = shot::scene_files();
+    if let Ok(folder) = std::env::var("OCTRAY_NFF") {
+        let entries = fs::read_dir(&folder).expect("OCTRAY_NFF names a folder");
+        let mut more: Vec<PathBuf> = entries
+            .map(|entry| entry.expect("a folder can be listed").path())
+            .filter(|path| path.to_string_lossy().ends_with("_small.nff"))
+            .collect();
+        more.sort();
+        scenes.extend(more);
+    }
+    scenes
+}
+
+fn first_objects_in(format: &str, scene: &Scene) -> Vec<Option<u32>> {
+    match format {
+        "f32" => first_objects::<f32>(scene),
+        "approx2" => first_objects::<Approx<2>>(scene),
+        "i24f8" => first_objects::<Fixed<8, true>>(scene),
+        "i20f12" => first_objects::<Fixed<12, true>>(scene),
+        "i16f16" => first_objects::<Fixed<16, true>>(scene),
+        "i12f20" => first_objects::<Fixed<20, true>>(scene),
+        "i8f24" => first_objects::<Fixed<24, true>>(scene),
+        "i4f28" => first_objects::<Fixed<28, true>>(scene),
+        other => panic!("no such format here: {other}"),
+    }
+}
+
+/// What the ray through each pixel's centre meets first, row by row.
+fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
+    let view = View {
+        size: Some((SIDE, SIDE)),
+        pixels_per_ray: 1,
+        samples: 1,
+        max_depth: 8,
+    };
+    let mut prepared = quantise::<S>(scene, &view).expect("the scene fits the format");
+    let growth = Growth {
+        options: octray_core::octree::Options {
+            depth: 24,
+            leaf_size: 2,
+        },
+        arena: None,
+    };
+    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (scene, tree) = (prepared.scene.scene(), tree.tree());
+    let mut stack = Stack::default();
+    let active = prepared.frame.active();
+    let pixels = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
+    pixels
+        .map(|(column, row)| {
+            if !active.columns.contains(&column) || !active.rows.contains(&row) {
+                return None;
+            }
+            let (x, y) = prepared.frame.place(column, row, 0, 0);
+            let ray = prepared.frame.camera().ray(x, y);
+            tree.nearest(&scene, &ray, &mut stack, &mut ())
+                .map(|hit| scene.attributes_of(hit.object).id)
+        })
+        .collect()
+}

@@ -1,0 +1,387 @@
+//! `octray render` end to end: what it writes, what it prints, how it ends.
+
+use octray::metric::Difference;
+use octray::picture::{self, Picture};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// A bit of everything: a mirror, glass, a box, a cone and a polygon under two lights.
+const SCENE: &str = "v 0 1 6 at 0 0.5 0 up 0 1 0 angle 40 resolution 60 80
+b 0.2 0.3 0.5
+l -3 5 4 0.8  l 4 3 2 0.4
+f 0.1 0.1 0.1  0.6 0.6 0.5  0 0 0  1 0 0
+p 4  -5 0 -5  5 0 -5  5 0 5  -5 0 5
+f 0 0 0  0.2 0.2 0.2  0.5 0.5 0.5  30 0.6 0
+s -0.8 0.6 0 0.6
+f 0 0 0  0.1 0.1 0.1  0.5 0.5 0.5  50 0.1 0.8 1.5
+s 0.7 0.5 0.8 0.5
+f 0.1 0 0  0.7 0.2 0.1  0 0 0  1 0 0
+box 0.3 0.4 -1 0.8 0.8 0.8
+c 1.6 0 0 0.4  1.6 1.2 0 0
+";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.scene"), SCENE).unwrap();
+    folder
+}
+
+fn octray(folder: &Path, line: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_octray-command"));
+    command.current_dir(folder).args(line.split_whitespace());
+    command
+}
+
+fn run(folder: &Path, line: &str) -> Output {
+    octray(folder, line).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Standard output of a command that succeeds and complains of nothing.
+fn done(folder: &Path, line: &str) -> String {
+    let output = run(folder, line);
+    assert_eq!(text(&output.stderr), "", "{line}");
+    assert_eq!(output.status.code(), Some(0), "{line}");
+    text(&output.stdout)
+}
+
+/// The statistics of a rendering.
+fn stats(folder: &Path, line: &str) -> Value {
+    serde_json::from_str(&done(
+        folder,
+        &format!("render a.scene --stats json {line}"),
+    ))
+    .unwrap()
+}
+
+/// Standard error of a command that fails with a code and prints nothing.
+fn failed(folder: &Path, line: &str, code: i32) -> String {
+    let output = run(folder, line);
+    assert_eq!(output.status.code(), Some(code), "{line}");
+    assert_eq!(text(&output.stdout), "", "{line}");
+    text(&output.stderr)
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn picture(folder: &Path, name: &str) -> Picture {
+    picture::read(&folder.join(name)).unwrap()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+#[test]
+fn without_flags_a_png_of_the_scenes_name_and_a_summary() {
+    let folder = folder();
+    let summary = done(folder.path(), "render a.scene");
+    assert_eq!(names(folder.path()), ["a.png", "a.scene"]);
+    assert_eq!(picture(folder.path(), "a.png").size(), (80, 60));
+    for word in ["f32", "2 lights", "tight", "80 x 60", "rays"] {
+        assert!(summary.contains(word), "no {word:?} in\n{summary}");
+    }
+    assert_eq!(done(folder.path(), "render a.scene --stats none"), "");
+}
+
+#[test]
+fn the_json_object_has_the_documented_fields() {
+    let folder = folder();
+    let stats = stats(folder.path(), "--arith auto --threads 2 --schedule static");
+    let fields = [
+        "scene",
+        "arith",
+        "format",
+        "size",
+        "rays",
+        "steps",
+        "tests",
+        "hits",
+        "saturations",
+        "octree",
+        "seconds",
+        "threads",
+        "schedule",
+        "packets",
+        "hash",
+    ];
+    let mut sorted = fields;
+    sorted.sort_unstable();
+    let mut found = keys(&stats);
+    found.sort_unstable();
+    assert_eq!(found, sorted);
+    assert_eq!(stats["scene"], "a.scene");
+    assert_eq!(
+        (&stats["arith"], &stats["format"]),
+        (&"auto".into(), &"i4f28".into())
+    );
+    assert_eq!(stats["size"], serde_json::json!([80, 60]));
+    assert_eq!(
+        (&stats["threads"], &stats["schedule"]),
+        (&2.into(), &"static".into())
+    );
+    assert_eq!(
+        (&stats["saturations"], &stats["octree"]["unsplit"]),
+        (&0.into(), &0.into())
+    );
+    assert_eq!(stats["octree"]["kind"], "tight");
+    for field in ["nodes", "links", "depth"] {
+        assert!(stats["octree"][field].as_u64().unwrap() > 0, "{field}");
+    }
+    for field in ["parse", "build", "render"] {
+        assert!(stats["seconds"][field].as_f64().unwrap() >= 0.0, "{field}");
+    }
+    let rays = |kind: &str| stats["rays"][kind].as_u64().unwrap();
+    assert!(rays("primary") > 0 && rays("primary") <= 80 * 60);
+    assert!(stats["hits"].as_u64().unwrap() <= rays("primary"));
+    assert!(rays("blocked") > 0 && rays("blocked") < rays("shadow"));
+    assert!(rays("reflected") > 0 && rays("transmitted") > 0);
+    let hash = stats["hash"].as_str().unwrap();
+    let expected = format!("{:016x}", picture(folder.path(), "a.png").hash());
+    assert_eq!(hash, expected);
+}
+
+#[test]
+fn threads_schedules_and_packets_change_nothing() {
+    let folder = folder();
+    let first = stats(folder.path(), "--threads 1 --packet-rows 1 -o first.ppm");
+    let bytes = fs::read(folder.path().join("first.ppm")).unwrap();
+    for threads in 1..=3 {
+        for schedule in ["dynamic", "static", "prescheduled"] {
+            for rows in [1, 2, 7] {
+                let line = format!(
+                    "--threads {threads} --schedule {schedule} --packet-rows {rows} -o b.ppm"
+                );
+                let stats = stats(folder.path(), &line);
+                assert_eq!(stats["rays"], first["rays"], "{line}");
+                assert_eq!(
+                    fs::read(folder.path().join("b.ppm")).unwrap(),
+                    bytes,
+                    "{line}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_arithmetic_and_every_tree_sees_the_scene() {
+    let folder = folder();
+    done(folder.path(), "render a.scene --arith f64 -o f64.png");
+    let reference = picture(folder.path(), "f64.png");
+    // The least ratio in dB: the coarsest formats show little more than that there is something.
+    let ariths = [
+        ("f64", 99.0),
+        ("f32", 50.0),
+        ("approx0", 10.0),
+        ("approx1", 20.0),
+        ("approx2", 45.0),
+        ("i24f8", 10.0),
+        ("i20f12", 20.0),
+        ("i16f16", 40.0),
+        ("i12f20", 40.0),
+        ("i8f24", 40.0),
+        ("i4f28", 40.0),
+        ("i32f32", 40.0),
+        ("auto", 40.0),
+    ];
+    for (arith, least) in ariths {
+        let first = stats(
+            folder.path(),
+            &format!("--arith {arith} --tree none -o none.png"),
+        );
+        assert_eq!(first["arith"], arith);
+        let taken = picture(folder.path(), "none.png");
+        let ratio = Difference::between(&reference, &taken).unwrap().psnr();
+        assert!(ratio >= least, "{arith}: {ratio:.1} dB");
+        for tree in [
+            "tight",
+            "modified",
+            "plain",
+            "tight --leaf-size 1 --arena 2",
+            "plain --arena 1",
+            "plain --tree-depth 2 --link box",
+            "modified --link box --leaf-size 5",
+        ] {
+            let same = stats(folder.path(), &format!("--arith {arith} --tree {tree}"));
+            assert_eq!(same["hash"], first["hash"], "{arith}, {tree}");
+        }
+    }
+}
+
+#[test]
+fn every_format_holds_the_picture() {
+    let folder = folder();
+    done(folder.path(), "render a.scene -o a.png --stats none");
+    let png = picture(folder.path(), "a.png");
+    for (line, least) in [
+        ("-o a.ppm", f64::INFINITY),
+        ("-o a.pfm", f64::INFINITY),
+        ("-o b.ras --ras-depth 24", f64::INFINITY),
+        ("-o a.ras", 30.0),
+    ] {
+        done(
+            folder.path(),
+            &format!("render a.scene --stats none {line}"),
+        );
+        let name = line.split_whitespace().nth(1).unwrap();
+        let same = picture(folder.path(), name);
+        let ratio = Difference::between(&png, &same).unwrap().psnr();
+        assert!(ratio >= least, "{name}: {ratio:.1} dB");
+    }
+    assert!(picture(folder.path(), "a.pfm").intensities().is_some());
+    // A reader that nobody here wrote.
+    if Command::new("convert").arg("-version").output().is_err() {
+        eprintln!("not tested: ImageMagick's convert, which reads the formats too, is missing");
+        return;
+    }
+    let ppm = fs::read(folder.path().join("a.ppm")).unwrap();
+    for name in ["a.png", "a.ppm", "b.ras"] {
+        let output = Command::new("convert")
+            .current_dir(folder.path())
+            .args([name, "-depth", "8", "ppm:-"])
+            .output()
+            .unwrap();
+        assert!(output.stdout == ppm, "{name}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn the_view_is_what_was_asked_for() {
+    let folder = folder();
+    let four = stats(folder.path(), "--pixels-per-ray 4 -o four.ppm");
+    let taken = picture(folder.path(), "four.ppm");
+    let rows: Vec<_> = taken.rows().collect();
+    for (y, row) in rows.iter().enumerate() {
+        assert_eq!(row, &rows[y - y % 2]);
+        assert!(row.chunks(2).all(|pair| pair[0] == pair[1]));
+    }
+    let one = stats(folder.path(), "");
+    let primary = |stats: &Value| stats["rays"]["primary"].as_u64().unwrap();
+    assert!(primary(&four) * 3 < primary(&one));
+    let samples = stats(folder.path(), "--samples 3 -o samples.ppm");
+    assert_eq!(primary(&samples), 9 * primary(&one));
+    let sized = stats(folder.path(), "--size 33x21 -o sized.ppm");
+    assert_eq!(sized["size"], serde_json::json!([33, 21]));
+    assert_eq!(picture(folder.path(), "sized.ppm").size(), (33, 21));
+    for line in ["--max-depth 0", "--cut-off 1"] {
+        let stats = stats(folder.path(), line);
+        assert_eq!(stats["rays"]["reflected"], 0, "{line}");
+        assert_eq!(stats["rays"]["transmitted"], 0, "{line}");
+    }
+    let reflected = |line: &str| {
+        stats(folder.path(), line)["rays"]["reflected"]
+            .as_u64()
+            .unwrap()
+    };
+    assert!(reflected("--max-depth 1") < reflected("--max-depth 2"));
+    assert!(reflected("--cut-off 1/4") < reflected("--cut-off 0"));
+}
+
+#[test]
+fn a_scene_that_does_not_fit_is_told_with_the_value() {
+    let folder = folder();
+    let bright = SCENE.replace("l -3 5 4 0.8", "l -3 5 4 90");
+    fs::write(folder.path().join("bright.scene"), bright).unwrap();
+    let complaint = failed(folder.path(), "render bright.scene --arith i4f28", 1);
+    assert!(complaint.contains("brightness of light 1"), "{complaint}");
+    assert_eq!(names(folder.path()), ["a.scene", "bright.scene"]);
+    let line = "render bright.scene --arith auto --stats json";
+    let stats: Value = serde_json::from_str(&done(folder.path(), line)).unwrap();
+    assert_eq!(stats["saturations"], 0);
+}
+
+#[test]
+fn mistakes_are_told_and_leave_nothing_behind() {
+    let folder = folder();
+    fs::write(
+        folder.path().join("bad.scene"),
+        format!("{SCENE}ball 1 2 3"),
+    )
+    .unwrap();
+    let complaint = failed(folder.path(), "render bad.scene", 1);
+    assert!(
+        complaint.starts_with("bad.scene:13:1: error: "),
+        "{complaint}"
+    );
+    let complaint = failed(folder.path(), "render missing.scene", 1);
+    assert!(
+        complaint.contains("missing.scene: no such file"),
+        "{complaint}"
+    );
+    let complaint = failed(folder.path(), "render a.scene -o no/such/a.png", 1);
+    assert!(
+        complaint.contains("cannot write no/such/a.png"),
+        "{complaint}"
+    );
+    for line in [
+        "render",
+        "render a.scene --arith f16",
+        "render a.scene --tree oak",
+        "render a.scene -o a.bmp",
+        "render a.scene --size 0x5",
+        "render a.scene --threads 0",
+        "render a.scene --samples 2 --pixels-per-ray 4",
+        "render a.scene --cut-off 2",
+        "render a.scene --stats xml",
+        "render a.scene --nonsense",
+    ] {
+        failed(folder.path(), line, 2);
+    }
+    assert_eq!(names(folder.path()), ["a.scene", "bad.scene"]);
+}
+
+/// Ctrl-C while a picture is traced that would take minutes.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_leaves_no_half_file() {
+    use std::process::Stdio;
+    use std::time::Duration;
+
+    let folder = folder();
+    let child = octray(
+        folder.path(),
+        "render a.scene --size 8000x6000 --samples 16 -o big.png",
+    )
+    .stdout(Stdio::piped())
+    .stderr(Stdio::piped())
+    .spawn()
+    .unwrap();
+    // Only once it listens.
+    let listens = || {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        u64::from_str_radix(caught.unwrap().trim(), 16).unwrap() & 0b10 != 0
+    };
+    while !listens() {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let interrupted = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(text(&output.stdout), "");
+    assert_eq!(names(folder.path()), ["a.scene"]);
+}

@@ -1,0 +1,73 @@
+//! A small picture of every scene, as it was when somebody last looked at it.
+//!
+//! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
+
+use octray::interrupt::Interrupt;
+use octray::job::Arith;
+use octray::metric::Difference;
+use octray::picture::{self, RasDepth, Target};
+use octray_tests::shot::{self, Shot};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rows of the pictures; their proportions are the scenes' own.
+const HEIGHT: u32 = 90;
+
+/// Arithmetic is the same on every machine. But where a formula is changed for the better, pixels
+/// at edges may change sides: one in 500 may differ by more than a level.
+const SHARE: f64 = 0.002;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden")
+}
+
+#[test]
+fn every_scene_looks_as_it_did() {
+    let update = std::env::var_os("OCTRAY_UPDATE_GOLDEN").is_some();
+    let mut failures = Vec::new();
+    for path in shot::scene_files() {
+        let name = format!("{}.png", shot::stem(&path));
+        let golden = folder().join(&name);
+        let scene = shot::read(&path);
+        let shot = Shot::new(Arith::F32).size(HEIGHT * scene.width / scene.height, HEIGHT);
+        let taken = shot.take(&scene).picture;
+        if update {
+            fs::create_dir_all(folder()).unwrap();
+            let target = Target::new(golden).unwrap();
+            target
+                .write(&taken, RasDepth::Eight, &Interrupt::new())
+                .unwrap();
+            continue;
+        }
+        match picture::read(&golden) {
+            Err(error) => failures.push(error.to_string()),
+            Ok(golden) => match Difference::between(&golden, &taken) {
+                Err(error) => failures.push(format!("{name}: {error}")),
+                Ok(difference) => {
+                    let share = difference.beyond_1 as f64 / difference.pixels as f64;
+                    if share > SHARE {
+                        failures.push(format!(
+                            "{name}: {} pixels beyond one level, {:.1} dB",
+                            difference.beyond_1,
+                            difference.psnr()
+                        ));
+                    }
+                }
+            },
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_picture_has_its_scene() {
+    let scenes: BTreeSet<String> = shot::scene_files()
+        .iter()
+        .map(|path| shot::stem(path))
+        .collect();
+    for entry in fs::read_dir(folder()).expect("there are golden pictures") {
+        let name = shot::stem(&entry.unwrap().path());
+        assert!(scenes.contains(&name), "{name}.png has no scene any more");
+    }
+}

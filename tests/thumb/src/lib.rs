@@ -1,0 +1,109 @@
+//! Everything of the core that a fixed-point program can ask for: building and walking every tree,
+//! tracing every shape. Built for a target without floating point, to see what it links.
+#![no_std]
+
+use octray_core::camera::Camera;
+use octray_core::octree::{
+    Link, List, Octant, Octants, Options, Packed, PackedStack, Stack, Tight, TightMemory, Variant,
+};
+use octray_core::packet::{Frame, Region};
+use octray_core::ray::Bounds;
+use octray_core::scalar::{Fixed, Scalar};
+use octray_core::scene::Scene;
+use octray_core::shape::ObjectRef;
+use octray_core::trace::{Tracer, Workspace};
+
+type Number = Fixed<28, false>;
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}
+
+const OPTIONS: Options = Options {
+    depth: 8,
+    leaf_size: 2,
+};
+
+/// One row of a picture.
+pub type Row = [[u8; 3]; 64];
+
+macro_rules! render {
+    ($scene:expr, $camera:expr, $tree:expr, $workspace:expr, $row:expr) => {{
+        let region = Region {
+            columns: 0..64,
+            rows: 0..48,
+        };
+        let frame = Frame::new(*$camera, 64, 48, 1, 1, region);
+        let tracer = Tracer {
+            scene: $scene,
+            accelerator: $tree,
+            max_depth: 4,
+            cut_off: Number::ZERO,
+        };
+        frame.render(0..1, &tracer, $workspace, &mut (), |x, _, colour| {
+            if let Some(pixel) = $row.get_mut(x as usize) {
+                *pixel = colour.to_array().map(Number::level);
+            }
+        });
+    }};
+}
+
+/// Renders with a tight tree built here.
+#[unsafe(no_mangle)]
+pub fn octray_tight(
+    scene: &Scene<'_, Number>,
+    memory: TightMemory<'_, i32>,
+    camera: &Camera<Number>,
+    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    row: &mut Row,
+) {
+    if let Ok((tree, _)) = Tight::build(&scene.shapes, memory, OPTIONS) {
+        render!(scene, camera, &tree, workspace, row);
+    }
+}
+
+/// Renders with the thesis's trees built here.
+#[unsafe(no_mangle)]
+pub fn octray_octants(
+    scene: &Scene<'_, Number>,
+    nodes: &mut [Octant<i32>],
+    links: &mut [ObjectRef],
+    variant: Variant,
+    camera: &Camera<Number>,
+    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    row: &mut Row,
+) {
+    let built = Octants::build(&scene.shapes, nodes, links, OPTIONS, variant, Link::Shape);
+    if let Ok((tree, _)) = built {
+        render!(scene, camera, &tree, workspace, row);
+    }
+}
+
+/// Renders without a tree.
+#[unsafe(no_mangle)]
+pub fn octray_list(
+    scene: &Scene<'_, Number>,
+    objects: &[ObjectRef],
+    camera: &Camera<Number>,
+    workspace: &mut Workspace<'_, Number, ()>,
+    row: &mut Row,
+) {
+    render!(scene, camera, &List(objects), workspace, row);
+}
+
+/// Renders with a packed tree built here.
+#[unsafe(no_mangle)]
+pub fn octray_packed(
+    scene: &Scene<'_, Number>,
+    words: &mut [u32],
+    links: &mut [ObjectRef],
+    boxes: &mut [Bounds<i32>],
+    camera: &Camera<Number>,
+    workspace: &mut Workspace<'_, Number, PackedStack>,
+    row: &mut Row,
+) {
+    if let Ok((tree, _)) = Packed::build(&scene.shapes, words, links, boxes, OPTIONS) {
+        render!(scene, camera, &tree, workspace, row);
+    }
+}
