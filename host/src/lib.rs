@@ -13,6 +13,7 @@
 pub mod bake;
 pub mod check;
 pub mod cli;
+pub mod cost;
 pub mod deal;
 pub mod diff;
 pub mod engine;
