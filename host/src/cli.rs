@@ -7,6 +7,7 @@ mod bake;
 mod check;
 mod diff;
 mod generate;
+mod measure;
 mod render;
 mod value;
 
@@ -14,6 +15,7 @@ pub use bake::BakeArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use measure::MeasureArgs;
 pub use render::RenderArgs;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +42,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Measure what pictures cost on small targets, in an emulator
+    Measure(MeasureArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";
