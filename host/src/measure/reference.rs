@@ -10,10 +10,9 @@ use crate::metric::Difference;
 use crate::picture::{Format, RasDepth, Target};
 use crate::progress::Progress;
 use crate::render::Traced;
-use crate::schedule::Schedule;
 use crate::trace::trace;
 use octray_scenes::model::Scene;
-use std::num::{NonZeroU32, NonZeroUsize};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// What the firmware renders.
@@ -89,8 +88,7 @@ pub fn render(
         },
         work: WorkOptions {
             threads: NonZeroUsize::MIN,
-            schedule: Schedule::Dynamic,
-            packet_rows: NonZeroU32::MIN,
+            ..WorkOptions::default()
         },
         stats: StatsFormat::None,
     };
