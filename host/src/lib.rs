@@ -5,6 +5,7 @@
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
+//! - [`cost`], [`simulate`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
@@ -30,6 +31,7 @@ pub mod packets;
 pub mod picture;
 pub mod progress;
 pub mod render;
+pub mod simulate;
 pub mod stability;
 pub mod stats;
 pub mod summary;
