@@ -84,13 +84,13 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         Some(growth) => {
             let (tree, summary) =
                 PackedTree::build(&mut prepared.scene, growth).map_err(|_| BakeError::TooMany)?;
-            (Some(tree.words), tree.links, summary.depth)
+            (Some((tree.words, tree.tick)), tree.links, summary.depth)
         }
     };
     let needs = needs_of(&prepared, options.view.max_depth);
     let tables = source::Tables {
         prepared: &prepared,
-        words: words.as_deref(),
+        words: words.as_ref().map(|(words, tick)| (&**words, *tick)),
         links: &links,
         needs,
         rays: room(&used_surfaces(&prepared), needs, options),

@@ -17,8 +17,8 @@ use std::mem::size_of;
 /// All that is written.
 pub(super) struct Tables<'a, S: Literal> {
     pub(super) prepared: &'a Prepared<S>,
-    /// The packed tree's nodes, if there is one.
-    pub(super) words: Option<&'a [u32]>,
+    /// The packed tree's nodes and its tick, if there is one.
+    pub(super) words: Option<(&'a [u32], u32)>,
     /// The objects, leaf by leaf.
     pub(super) links: &'a [ObjectRef],
     pub(super) needs: Needs,
@@ -44,7 +44,7 @@ impl<S: Literal> Tables<'_, S> {
             + self.links.len() * (size_of::<Attributes>() + size_of::<ObjectRef>())
             + size_of_val(&*scene.surfaces)
             + size_of_val(&*scene.lights)
-            + self.words.map_or(0, size_of_val)
+            + self.words.map_or(0, |(words, _)| size_of_val(words))
     }
 }
 
@@ -76,7 +76,7 @@ impl<S: Literal> Display for Tables<'_, S> {
         array(f, "SURFACES", "scene::Surface<S>", &scene.surfaces, surface)?;
         array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
         array(f, "LINKS", "shape::ObjectRef", self.links, link)?;
-        if let Some(words) = self.words {
+        if let Some((words, _)) = self.words {
             array(f, "WORDS", "u32", words, |w| format!("{w:#010x}"))?;
         }
         writeln!(
@@ -95,8 +95,10 @@ impl<S: Literal> Display for Tables<'_, S> {
             number(scene.reach),
         )?;
         let tree = match self.words {
-            Some(_) => "octree::Packed { words: &WORDS, links: &LINKS }",
-            None => "octree::List(&LINKS)",
+            Some((_, tick)) => {
+                format!("octree::Packed {{ words: &WORDS, links: &LINKS, tick: {tick} }}")
+            }
+            None => "octree::List(&LINKS)".into(),
         };
         writeln!(
             f,
