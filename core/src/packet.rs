@@ -106,11 +106,26 @@ impl<S: Scalar> Frame<S> {
         tracer: &Tracer<'_, S, A, NEEDS>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
-        mut put: impl FnMut(u32, u32, Vec3<S>),
+        put: impl FnMut(u32, u32, Vec3<S>),
     ) {
         workspace.forget();
-        let rows = rows.start.max(self.0.active.rows.start)..rows.end.min(self.0.active.rows.end);
         let columns = self.0.active.columns.clone();
+        self.render_region(&Region { columns, rows }, tracer, workspace, observer, put);
+    }
+
+    /// The same for a rectangle of pixels; what blocked the lights last is not forgotten first.
+    /// Blocks that begin above the rectangle or to its left are not rendered.
+    pub fn render_region<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+        &self,
+        region: &Region,
+        tracer: &Tracer<'_, S, A, NEEDS>,
+        workspace: &mut Workspace<'_, S, A::Stack>,
+        observer: &mut O,
+        mut put: impl FnMut(u32, u32, Vec3<S>),
+    ) {
+        let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
+        let rows = both(&region.rows, &self.0.active.rows);
+        let columns = both(&region.columns, &self.0.active.columns);
         // 1 or 2; anything else must not stop the picture.
         let block = self.0.block.clamp(1, 2);
         let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);

@@ -4,8 +4,8 @@
 //! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
-//! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
-//! - [`trace`]: the arithmetic and the tree chosen, the picture traced
+//! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
+//! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
@@ -13,7 +13,9 @@
 pub mod bake;
 pub mod check;
 pub mod cli;
+pub mod deal;
 pub mod diff;
+pub mod engine;
 pub mod error;
 pub mod facts;
 pub mod generate;
@@ -26,9 +28,9 @@ pub mod packets;
 pub mod picture;
 pub mod progress;
 pub mod render;
-pub mod schedule;
 pub mod stats;
 pub mod summary;
+pub mod threads;
 pub mod trace;
 
 use clap::Parser;
