@@ -13,7 +13,7 @@
 //! | 1 | its origin's z, 16 bits; how many bits its steps along x, y and z are shifted by, 4 each; how many children it has |
 //! | 2 each | a child: three low planes in steps from the origin, and the low byte of its place; three high planes, and the high byte. The place is that of its first link, marked, or of its node in pairs of words |
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
+use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
 use super::{Accelerator, Hit};
 use crate::needs::Needs;
@@ -67,8 +67,8 @@ impl<'a> Packed<'a> {
     /// as scratch memory, one for each object. What finds no room stays unsplit.
     ///
     /// # Errors
-    /// If there is no room for one node of eight children, or for a link and a box for each
-    /// object, or if there are 2¹⁵ objects or more: a child's word has no place for them.
+    /// If there is no room for one node, or for a link and a box for each object, or if there are
+    /// 2¹⁵ objects or more: a child's word has no place for them.
     pub fn build<S: Scalar, const NEEDS: Needs>(
         shapes: &Shapes<'_, S, NEEDS>,
         reach: S,
@@ -82,7 +82,7 @@ impl<'a> Packed<'a> {
             nodes: 1,
             links: count,
         };
-        if words.len() < HEADER + WIDTH * CHILD || count >= LEAF as usize {
+        if count >= LEAF as usize {
             return Err(too_small);
         }
         let links = links.get_mut(..count).ok_or(too_small)?;
@@ -108,6 +108,7 @@ impl<'a> Packed<'a> {
             leaf_size: options.leaf_size.max(1) as usize,
         };
         if count > 0 {
+            builder.node(0, count).ok_or(too_small)?;
             builder.grow(options.depth.clamp(1, DEEPEST.min(MAX_DEPTH)), &mut summary);
         }
         let (used, tick) = (builder.used, builder.tick);
@@ -137,10 +138,9 @@ struct Builder<'b> {
 }
 
 impl Builder<'_> {
-    /// Splits breadth first. Until it is its turn, a child's two words hold its range of objects,
+    /// Splits what is below the root breadth first. Until it is its turn, a child's two words hold its range of objects,
     /// so that no other memory is needed.
     fn grow(&mut self, deepest: u32, summary: &mut Summary) {
-        self.node(0, self.links.len());
         let (mut at, mut depth, mut level_end) = (0, 1, self.used);
         while let Some(header) = Header::read(self.words, at) {
             if at >= level_end {
@@ -186,19 +186,20 @@ impl Builder<'_> {
     /// Writes a node over a range of objects, its children waiting. Returns its word.
     fn node(&mut self, start: usize, end: usize) -> Option<u32> {
         let at = self.used;
-        let room = self.words.len().checked_sub(at)?;
-        if room < HEADER + WIDTH * CHILD || at / CHILD >= LEAF as usize {
+        if at / CHILD >= LEAF as usize {
             return None;
         }
         let (groups, count) = build::split(start, end, self.links, self.boxes, self.leaf_size);
         let groups = groups.get(..count)?;
+        let node = self.words.get_mut(at..at + HEADER + count * CHILD)?;
         let all = groups
             .iter()
             .fold(build::nothing(), |a, g| build::union(a, g.bounds));
         let header = Header::around(&ticks_of(&all, self.tick), count);
         let ranges = groups.iter().flat_map(|g| [g.start as u32, g.end as u32]);
-        for (place, word) in
-            (self.words.get_mut(at..)?.iter_mut()).zip(header.words().into_iter().chain(ranges))
+        for (place, word) in node
+            .iter_mut()
+            .zip(header.words().into_iter().chain(ranges))
         {
             *place = word;
         }
