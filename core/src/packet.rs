@@ -99,7 +99,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// Renders the active pixels of some rows, and hands each to `put` with its column, its row
-    /// and its colour in [0, 1]. Blocks that begin above the rows are not rendered.
+    /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
     pub fn render<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
         &self,
         rows: Range<u32>,
@@ -136,7 +136,7 @@ impl<S: Scalar> Frame<S> {
             while column < columns.end {
                 let colour = if self.0.samples == 1 {
                     let ray = line.ray(self.aside(column, 0));
-                    clamp(tracer.radiance(ray, workspace, observer))
+                    tracer.radiance(ray, workspace, observer)
                 } else {
                     self.average(column, row, tracer, workspace, observer)
                 };
@@ -170,7 +170,7 @@ impl<S: Scalar> Frame<S> {
                 sum = sum + clamp(colour) * self.0.share;
             }
         }
-        clamp(sum)
+        sum
     }
 
     /// Where in the camera's picture a sample lies, from −1 to 1.

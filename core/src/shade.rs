@@ -93,7 +93,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
         observer.ray(RayKind::Shadow);
         let ray = point.ray::<NEEDS>(to_light, true);
         // A surface at the light itself does not block it.
-        let limit = distance - S::surface_error(light.position.size(), S::ZERO) - point.error;
+        let limit = distance - light.clearance - point.error;
         let last = blockers.get(i).copied().flatten();
         let still = last.filter(|&object| {
             observer.test();

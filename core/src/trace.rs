@@ -92,7 +92,8 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
                     self.meet(&next, hit, workspace, &mut waiting, observer)
                 }
             };
-            let light = if next.weight == S::ONE {
+            // The weight of a camera's ray is 1.
+            let light = if next.depth == 0 {
                 light
             } else {
                 light * next.weight

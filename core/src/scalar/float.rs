@@ -107,7 +107,8 @@ macro_rules! float {
 
             #[inline(always)]
             fn level(self) -> u8 {
-                (self.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+                // The cast saturates.
+                (self * 255.0 + 0.5) as u8
             }
 
             #[inline(always)]
@@ -196,7 +197,7 @@ fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {
 #[inline(always)]
 pub(super) fn power_f32(x: f32, exponent: Exponent<f32>) -> f32 {
     // A dot product of unit vectors can exceed 1 by rounding.
-    let x = x.min(1.0);
+    let x = if x > 1.0 { 1.0 } else { x };
     let (mut result, mut square, mut rest) = (1.0, x, exponent.whole);
     while rest != 0 {
         if rest & 1 != 0 {

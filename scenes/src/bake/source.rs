@@ -339,7 +339,8 @@ fn surface<S: Literal>(surface: &Surface<S>) -> String {
 
 fn light<S: Literal>(light: &Light<S>) -> String {
     let (position, colour) = (vector(&light.position), vector(&light.colour));
-    format!("scene::Light {{ position: {position}, colour: {colour} }}")
+    let clearance = number(light.clearance);
+    format!("scene::Light {{ position: {position}, colour: {colour}, clearance: {clearance} }}")
 }
 
 fn link(link: &ObjectRef) -> String {
