@@ -8,6 +8,7 @@ mod check;
 mod diff;
 mod generate;
 mod render;
+mod stability;
 mod value;
 
 pub use bake::BakeArgs;
@@ -15,6 +16,7 @@ pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use render::RenderArgs;
+pub use stability::StabilityArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -40,6 +42,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Show where methods hold, degrade and break, in every arithmetic
+    Stability(StabilityArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";
