@@ -7,6 +7,7 @@ mod bake;
 mod check;
 mod diff;
 mod generate;
+mod measure;
 mod render;
 mod stability;
 mod value;
@@ -15,6 +16,7 @@ pub use bake::BakeArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use measure::MeasureArgs;
 pub use render::RenderArgs;
 pub use stability::StabilityArgs;
 
@@ -42,6 +44,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Measure what pictures cost on small targets, in an emulator
+    Measure(MeasureArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
 }

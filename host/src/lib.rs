@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`stability`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
@@ -22,6 +22,7 @@ pub mod generate;
 pub mod heat;
 pub mod interrupt;
 pub mod job;
+pub mod measure;
 pub mod metric;
 pub mod output;
 pub mod packets;
@@ -73,6 +74,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Bake(args) => bake::run(&args.job()?, &interrupt),
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
+        Command::Measure(args) => measure::run(&args.job()?, &interrupt),
         Command::Stability(args) => stability::run(&args.job(), &interrupt),
     }
 }
