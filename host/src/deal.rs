@@ -1,7 +1,7 @@
 //! Dealing packets of work to processors: the three ways of the thesis (chapter 5), and three since.
 //!
 //! A [`Deal`] says which packet a processor gets next. Threads ask it ([`crate::threads`]), and so does the
-//! simulation (`crate::simulate`): both see the same dealing.
+//! simulation ([`crate::simulate`]): both see the same dealing.
 
 use clap::ValueEnum;
 use serde::Serialize;
