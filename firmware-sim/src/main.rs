@@ -1,10 +1,15 @@
-//! Renders the scene that the build script has baked, on a board without operating system, and
-//! tells the picture's hash, what was counted and the deepest stack by semihosting. Exit code 0 if
-//! all went well, 101 after a panic, 102 after a fault, 103 if the stack ran out.
+//! On a board without operating system: renders the scene that the build script has baked, and tells
+//! the picture's hash, what was counted and the deepest stack by semihosting. Exit code 0 if all
+//! went well, 101 after a panic, 102 after a fault, 103 if the stack ran out.
+//!
+//! Elsewhere: the panel simulator, which draws a scene file as such a board would. Exit codes are
+//! those of `octray`.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
 mod board;
+#[cfg(not(target_os = "none"))]
+mod panel;
 
 /// The baked scene.
 #[cfg(target_os = "none")]
@@ -14,8 +19,8 @@ mod baked {
 }
 
 #[cfg(not(target_os = "none"))]
-fn main() {
-    eprintln!(
-        "octray-firmware runs on boards: build it with --target thumbv6m-none-eabi or the like"
-    );
+fn main() -> std::process::ExitCode {
+    octray::launch(std::env::args_os(), |args: panel::PanelArgs, interrupt| {
+        panel::run(&args.job()?, interrupt)
+    })
 }

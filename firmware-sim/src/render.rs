@@ -1,5 +1,6 @@
 //! From packets of rays to strips of pixels to a display.
 
+use core::ops::Range;
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Point, Size};
 use embedded_graphics_core::pixelcolor::Rgb888;
@@ -37,27 +38,63 @@ where
     let (width, height) = (frame.parts().width, frame.parts().height);
     let background = tracer.scene.background;
     let background = [background.x, background.y, background.z].map(S::level);
-    // Blocks of two rows must not be cut.
-    let rows = (strip.len() as u32 / width.max(1)) & !(frame.block() - 1);
-    if rows == 0 {
-        return Ok(());
-    }
-    let mut top = 0;
-    while top < height {
-        let bottom = (top + rows).min(height);
-        let Some(pixels) = strip.get_mut(..((bottom - top) * width) as usize) else {
-            break;
-        };
+    let strips = Strips {
+        width,
+        height,
+        block: frame.block(),
+    };
+    strips.draw(target, strip, |rows, pixels| {
         pixels.fill(background);
-        frame.render(top..bottom, tracer, workspace, observer, |x, y, colour| {
+        let top = rows.start;
+        frame.render(rows, tracer, workspace, observer, |x, y, colour| {
             if let Some(pixel) = pixels.get_mut(((y - top) * width + x) as usize) {
                 *pixel = [colour.x, colour.y, colour.z].map(S::level);
             }
         });
-        let area = Rectangle::new(Point::new(0, top as i32), Size::new(width, bottom - top));
-        let colours = pixels.iter().map(|&[r, g, b]| Rgb888::new(r, g, b).into());
-        target.fill_contiguous(&area, colours)?;
-        top = bottom;
+    })
+}
+
+/// A picture that is cut into strips of whole rows, whoever traces them.
+#[derive(Clone, Copy, Debug)]
+pub struct Strips {
+    /// Columns of the picture.
+    pub width: u32,
+    /// Rows of the picture.
+    pub height: u32,
+    /// The side of the square of pixels that one ray colours, 1 or 2: such squares are not cut.
+    pub block: u32,
+}
+
+impl Strips {
+    /// Draws the picture into `target`, from top to bottom. `trace` fills the pixels of some rows,
+    /// row by row; they are in `strip`, as many whole rows as it has room for. With less room than
+    /// for `block` rows, nothing is drawn.
+    ///
+    /// # Errors
+    /// What the display says.
+    pub fn draw<D: DrawTarget<Color: From<Rgb888>>>(
+        self,
+        target: &mut D,
+        strip: &mut [Level],
+        mut trace: impl FnMut(Range<u32>, &mut [Level]),
+    ) -> Result<(), D::Error> {
+        let (width, height) = (self.width, self.height);
+        let rows = (strip.len() as u32 / width.max(1)) & !(self.block - 1);
+        if rows == 0 {
+            return Ok(());
+        }
+        let mut top = 0;
+        while top < height {
+            let bottom = (top + rows).min(height);
+            let Some(pixels) = strip.get_mut(..((bottom - top) * width) as usize) else {
+                break;
+            };
+            trace(top..bottom, pixels);
+            let area = Rectangle::new(Point::new(0, top as i32), Size::new(width, bottom - top));
+            let colours = pixels.iter().map(|&[r, g, b]| Rgb888::new(r, g, b).into());
+            target.fill_contiguous(&area, colours)?;
+            top = bottom;
+        }
+        Ok(())
     }
-    Ok(())
 }

@@ -11,7 +11,7 @@ mod measure;
 mod render;
 mod schedule;
 mod stability;
-mod value;
+pub mod value;
 
 pub use bake::BakeArgs;
 pub use check::CheckArgs;

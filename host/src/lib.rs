@@ -47,11 +47,19 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Do what a command line asks for; messages go to standard error. The exit code is 0 when done, 1 when it
-/// failed, 2 for bad usage and 130 when interrupted.
+/// Do what a command line of `octray` asks for; the exit code is that of [`launch`].
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
+    launch(arguments, |cli: Cli, interrupt| run(cli.command, interrupt))
+}
+
+/// Do with `run` what a command line asks for; messages go to standard error. The exit code is 0 when done,
+/// 1 when it failed, 2 for bad usage and 130 when interrupted.
+pub fn launch<A: Parser>(
+    arguments: impl IntoIterator<Item = OsString>,
+    run: impl FnOnce(A, &Interrupt) -> Result<(), Error>,
+) -> ExitCode {
+    let arguments = match A::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
         Err(answer) => {
             // Help or a complaint; if nobody reads it, so be it.
             let _ = answer.print();
@@ -61,7 +69,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             };
         }
     };
-    match run(cli.command) {
+    match Interrupt::on_signal().and_then(|interrupt| run(arguments, &interrupt)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             tell(&error);
@@ -70,17 +78,16 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-fn run(command: Command) -> Result<(), Error> {
-    let interrupt = Interrupt::on_signal()?;
+fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
     match command {
-        Command::Render(args) => render::run(&args.job()?, &interrupt, trace::trace),
-        Command::Check(args) => check::run(&args.scenes, &interrupt),
-        Command::Bake(args) => bake::run(&args.job()?, &interrupt),
-        Command::Generate(args) => generate::run(&args.job(), &interrupt),
-        Command::Diff(args) => diff::run(&args.job(), &interrupt),
-        Command::Measure(args) => measure::run(&args.job()?, &interrupt),
-        Command::Schedule(args) => sweep::run(&args.job(), &interrupt),
-        Command::Stability(args) => stability::run(&args.job(), &interrupt),
+        Command::Render(args) => render::run(&args.job()?, interrupt, trace::trace),
+        Command::Check(args) => check::run(&args.scenes, interrupt),
+        Command::Bake(args) => bake::run(&args.job()?, interrupt),
+        Command::Generate(args) => generate::run(&args.job(), interrupt),
+        Command::Diff(args) => diff::run(&args.job(), interrupt),
+        Command::Measure(args) => measure::run(&args.job()?, interrupt),
+        Command::Schedule(args) => sweep::run(&args.job(), interrupt),
+        Command::Stability(args) => stability::run(&args.job(), interrupt),
     }
 }
 

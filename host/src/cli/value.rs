@@ -7,12 +7,15 @@ use std::num::NonZeroU32;
 use std::str::FromStr;
 
 /// A picture file whose extension names its format.
-pub(super) fn target() -> impl TypedValueParser<Value = Target> {
+pub fn target() -> impl TypedValueParser<Value = Target> {
     PathBufValueParser::new().try_map(Target::new)
 }
 
 /// `WxH`, both 1 to 65535.
-pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
+///
+/// # Errors
+/// What was expected.
+pub fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some((side(width)?.into(), side(height)?.into())))
