@@ -1,6 +1,9 @@
 //! The sweeps, one file for each method.
 
+pub mod glass;
 pub mod ground;
+pub mod mirror;
+pub mod plane;
 pub mod power;
 pub mod sphere;
 
@@ -10,5 +13,9 @@ use crate::method::Method;
 pub static ALL: &[Method] = &[
     Method::of::<sphere::Sphere>(),
     Method::of::<ground::Ground>(),
+    Method::of::<plane::Plane>(),
+    Method::of::<mirror::Mirror>(),
+    Method::of::<glass::Glass>(),
+    Method::of::<glass::Critical>(),
     Method::of::<power::Power>(),
 ];
