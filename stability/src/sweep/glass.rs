@@ -52,7 +52,7 @@ impl Sweep for Glass {
     }
 }
 
-/// Rays that leave glass at a sine that is off the critical one by a share of ½ to 10⁻⁷.
+/// Rays that leave glass at a sine that is off the critical one by a share of 1/5 to 10⁻⁷.
 #[derive(Debug)]
 pub struct Critical;
 
@@ -62,8 +62,8 @@ impl Sweep for Critical {
         title: "Near the critical angle",
         axis: "critical sine / distance from it",
         unit: "",
-        values: SEVEN_DECADES.split_at(1).1,
-        home: 2.0,
+        values: SEVEN_DECADES.split_at(2).1,
+        home: 5.0,
         forms: FORMS,
         bounds: Bounds {
             wrong: Some(bound(0.0, 0.05)),

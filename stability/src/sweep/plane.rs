@@ -28,7 +28,7 @@ impl Sweep for Plane {
             },
             Form {
                 name: "textbook",
-                label: "thesis (2.4): t = −(N·O + D)/(N·d)",
+                label: "thesis (2.4): −(N·O + D) times 1/(N·d)",
             },
         ],
         bounds: Bounds {
@@ -91,11 +91,9 @@ pub(super) fn truth<S: Number>(plane: &Flat<S>, ray: &Ray<S>) -> Option<Exact> {
     (t > Exact::ZERO).then_some(t)
 }
 
+/// The reciprocal is a number of the format, as on machines that do not divide.
 fn textbook<S: Number>(plane: &Flat<S>, ray: &Ray<S>, limit: S) -> Option<S> {
-    let rise = plane.normal.dot(ray.direction);
-    if rise == S::ZERO {
-        return None;
-    }
-    let t = -((plane.normal.dot(ray.origin) - plane.offset).quotient(rise));
+    let reciprocal = S::ONE.quotient(plane.normal.dot(ray.direction));
+    let t = (plane.offset - plane.normal.dot(ray.origin)) * reciprocal;
     (t > S::ZERO && t <= limit).then_some(t)
 }
