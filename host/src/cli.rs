@@ -7,14 +7,18 @@ mod bake;
 mod check;
 mod diff;
 mod generate;
+mod measure;
 mod render;
+mod stability;
 mod value;
 
 pub use bake::BakeArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use measure::MeasureArgs;
 pub use render::RenderArgs;
+pub use stability::StabilityArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -40,6 +44,10 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Measure what pictures cost on small targets, in an emulator
+    Measure(MeasureArgs),
+    /// Show where methods hold, degrade and break, in every arithmetic
+    Stability(StabilityArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";

@@ -1,11 +1,13 @@
 //! What to render and how: a command line that has been checked.
 
+use crate::deal::Policy;
+use crate::packets::Shape;
 use crate::picture::{RasDepth, Target};
-use crate::schedule::Schedule;
 use clap::ValueEnum;
 use serde::Serialize;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
+use std::thread::available_parallelism;
 
 /// Everything `octray render` was asked for. Values are in the ranges given; nothing contradicts.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,9 +69,23 @@ pub struct WorkOptions {
     /// How many threads trace.
     pub threads: NonZeroUsize,
     /// Which thread gets which packet.
-    pub schedule: Schedule,
-    /// Rows of a packet; even with four pixels per ray.
-    pub packet_rows: NonZeroU32,
+    pub policy: Policy,
+    /// How large packets are; rows and columns even with four pixels per ray.
+    pub packet: Shape,
+    /// Whether each thread stays on one core.
+    pub pin: bool,
+}
+
+/// One thread for each core, dynamic dealing of four rows at a time.
+impl Default for WorkOptions {
+    fn default() -> Self {
+        Self {
+            threads: available_parallelism().unwrap_or(NonZeroUsize::MIN),
+            policy: Policy::Dynamic,
+            packet: Shape::strip(const { NonZeroU32::new(4).unwrap() }),
+            pin: false,
+        }
+    }
 }
 
 /// The arithmetic a picture is traced in.
@@ -209,6 +225,6 @@ mod tests {
     fn a_name_is_the_same_everywhere() {
         agree(Arith::name);
         agree(Tree::name);
-        agree(Schedule::name);
+        agree(Policy::name);
     }
 }

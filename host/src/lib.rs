@@ -1,11 +1,12 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
-//! - [`schedule`], [`packets`]: the work cut into packets of rows and dealt to threads
-//! - [`trace`]: the arithmetic and the tree chosen, the picture traced
+//! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
+//! - [`cost`], [`simulate`]: what parts of a picture cost to trace, and how many processors would share that
+//! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
@@ -13,22 +14,28 @@
 pub mod bake;
 pub mod check;
 pub mod cli;
+pub mod cost;
+pub mod deal;
 pub mod diff;
+pub mod engine;
 pub mod error;
 pub mod facts;
 pub mod generate;
 pub mod heat;
 pub mod interrupt;
 pub mod job;
+pub mod measure;
 pub mod metric;
 pub mod output;
 pub mod packets;
 pub mod picture;
 pub mod progress;
 pub mod render;
-pub mod schedule;
+pub mod simulate;
+pub mod stability;
 pub mod stats;
 pub mod summary;
+pub mod threads;
 pub mod trace;
 
 use clap::Parser;
@@ -70,6 +77,8 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Bake(args) => bake::run(&args.job()?, &interrupt),
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
+        Command::Measure(args) => measure::run(&args.job()?, &interrupt),
+        Command::Stability(args) => stability::run(&args.job(), &interrupt),
     }
 }
 

@@ -1,19 +1,67 @@
-//! Cutting a picture into packets of rows that threads write into without getting in each other's way.
+//! Cutting a picture into packets that threads write into without getting in each other's way: strips of
+//! rows, or tiles.
 
 use crate::picture::{Intensity, Level, Picture};
+use octray_core::packet::Region;
+use serde::Serialize;
+use std::fmt;
 use std::num::NonZeroU32;
-use std::ops::Range;
 use std::sync::Mutex;
 
-/// The rows of one packet, whole rows of the picture from column 0.
+/// How large packets are; those at the right and at the bottom may be smaller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct Shape {
+    /// Rows.
+    pub rows: NonZeroU32,
+    /// Columns; whole rows if `None`.
+    pub columns: Option<NonZeroU32>,
+}
+
+impl Shape {
+    /// Whole rows.
+    pub const fn strip(rows: NonZeroU32) -> Self {
+        Self {
+            rows,
+            columns: None,
+        }
+    }
+
+    /// The packets that cover a region, row by row from its upper left corner.
+    pub fn cut(self, region: &Region) -> impl Iterator<Item = Region> {
+        let (rows, columns) = (region.rows.clone(), region.columns.clone());
+        let width = self.columns.map_or(u32::MAX, NonZeroU32::get);
+        let starts = |start: u32, end, step| (start..end).step_by(step as usize);
+        starts(rows.start, rows.end, self.rows.get()).flat_map(move |row| {
+            let rows = row..row.saturating_add(self.rows.get()).min(rows.end);
+            let end = columns.end;
+            starts(columns.start, end, width).map(move |column| Region {
+                columns: column..column.saturating_add(width).min(end),
+                rows: rows.clone(),
+            })
+        })
+    }
+}
+
+/// `4 rows` or `16 x 8 pixels`, the columns first.
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.columns, self.rows.get()) {
+            (Some(columns), rows) => write!(f, "{columns} x {rows} pixels"),
+            (None, 1) => write!(f, "1 row"),
+            (None, rows) => write!(f, "{rows} rows"),
+        }
+    }
+}
+
+/// One packet, to be written into.
 #[derive(Debug)]
 pub struct Packet<'a> {
-    /// Which rows of the picture these are.
-    pub rows: Range<u32>,
-    /// Their levels.
-    pub levels: &'a mut [Level],
-    /// Their intensities, if the picture has them.
-    pub intensities: Option<&'a mut [Intensity]>,
+    /// Which pixels of the picture these are.
+    pub region: Region,
+    /// Their levels, row by row.
+    pub levels: Vec<&'a mut [Level]>,
+    /// Their intensities, row by row, if the picture has them.
+    pub intensities: Option<Vec<&'a mut [Intensity]>>,
 }
 
 /// All packets of a picture, each to be taken once by whichever thread works on it.
@@ -21,26 +69,27 @@ pub struct Packet<'a> {
 pub struct Packets<'a>(Vec<Mutex<Option<Packet<'a>>>>);
 
 impl<'a> Packets<'a> {
-    /// Cut `rows` of a picture into packets of `height` rows, from the top; the last one may be lower.
-    /// Rows that the picture does not have are left out.
-    pub fn cut(picture: &'a mut Picture, rows: Range<u32>, height: NonZeroU32) -> Self {
-        let (width, end) = (picture.width() as usize, rows.end.min(picture.height()));
-        let (mut levels, mut intensities) = picture.pixels_mut();
-        let mut packets = Vec::new();
-        let mut start = rows.start.min(end);
-        take(&mut levels, start as usize * width);
-        take_some(&mut intensities, start as usize * width);
-        while start < end {
-            let stop = start.saturating_add(height.get()).min(end);
-            let pixels = (stop - start) as usize * width;
-            packets.push(Mutex::new(Some(Packet {
-                rows: start..stop,
-                levels: take(&mut levels, pixels),
-                intensities: take_some(&mut intensities, pixels),
-            })));
-            start = stop;
-        }
-        Self(packets)
+    /// Cut a region of a picture into packets, in the order of [`Shape::cut`]. Pixels that the picture does not
+    /// have are left out.
+    pub fn cut(picture: &'a mut Picture, region: &Region, shape: Shape) -> Self {
+        let (width, height) = picture.size();
+        let region = Region {
+            columns: region.columns.start..region.columns.end.min(width),
+            rows: region.rows.start..region.rows.end.min(height),
+        };
+        let (levels, intensities) = picture.pixels_mut();
+        let mut levels = Rows::new(levels, width, &region);
+        let mut intensities = intensities.map(|pixels| Rows::new(pixels, width, &region));
+        let packets = shape.cut(&region).map(|region| {
+            let levels = levels.take(&region);
+            let intensities = intensities.as_mut().map(|rows| rows.take(&region));
+            Mutex::new(Some(Packet {
+                region,
+                levels,
+                intensities,
+            }))
+        });
+        Self(packets.collect())
     }
 
     /// How many packets there are.
@@ -59,69 +108,95 @@ impl<'a> Packets<'a> {
     }
 }
 
-/// Cut the first `count` elements (or all there are) off a slice.
-fn take<'a, T>(slice: &mut &'a mut [T], count: usize) -> &'a mut [T] {
-    slice
-        .split_off_mut(..count.min(slice.len()))
-        .unwrap_or_default()
+/// What is left of each row of a region.
+struct Rows<'a, T> {
+    first: u32,
+    rows: Vec<&'a mut [T]>,
 }
 
-fn take_some<'a, T>(slice: &mut Option<&'a mut [T]>, count: usize) -> Option<&'a mut [T]> {
-    slice.as_mut().map(|slice| take(slice, count))
+impl<'a, T> Rows<'a, T> {
+    fn new(pixels: &'a mut [T], width: u32, region: &Region) -> Self {
+        let Region { columns, rows } = region;
+        let inside = |row: &'a mut [T]| {
+            row.get_mut(columns.start as usize..columns.end as usize)
+                .unwrap_or_default()
+        };
+        let rows_of = pixels.chunks_exact_mut(width.max(1) as usize);
+        Self {
+            first: rows.start,
+            rows: rows_of
+                .skip(rows.start as usize)
+                .take(rows.len())
+                .map(inside)
+                .collect(),
+        }
+    }
+
+    /// Cut the next packet off, all to the left of it being gone.
+    fn take(&mut self, region: &Region) -> Vec<&'a mut [T]> {
+        let rows = region.rows.clone().map(|row| (row - self.first) as usize);
+        let width = region.columns.len();
+        rows.filter_map(|row| self.rows.get_mut(row)?.split_off_mut(..width))
+            .collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interrupt::Interrupt;
-    use crate::schedule::{Schedule, run_packets};
-    use clap::ValueEnum;
-    use std::num::NonZeroUsize;
+    use std::ops::Range;
 
-    /// A picture whose every pixel holds its row and column, made packet by packet.
-    fn paint(rows: Range<u32>, height: u32, schedule: Schedule) -> Picture {
-        let mut picture = Picture::black(5, 23, true).unwrap();
-        let packets = Packets::cut(&mut picture, rows, NonZeroU32::new(height).unwrap());
-        run_packets(
-            packets.len(),
-            NonZeroUsize::new(3).unwrap(),
-            schedule,
-            &Interrupt::new(),
-            |_| (),
-            |(), index| {
-                let packet = packets.take(index).unwrap();
-                let intensities = packet.intensities.unwrap();
-                assert_eq!(packet.levels.len(), packet.rows.len() * 5);
-                assert_eq!(intensities.len(), packet.levels.len());
-                let places = packet
-                    .rows
-                    .flat_map(|row| (0..5).map(move |column| (row, column)));
-                for ((row, column), level) in places.zip(packet.levels) {
-                    *level = [row as u8, column, 1];
+    fn shape(rows: u32, columns: u32) -> Shape {
+        Shape {
+            rows: NonZeroU32::new(rows).unwrap(),
+            columns: NonZeroU32::new(columns),
+        }
+    }
+
+    /// Marks the pixels of each packet with its row, its column and 1; they must not be marked before.
+    fn paint(columns: Range<u32>, rows: Range<u32>, shape: Shape) -> Picture {
+        let mut picture = Picture::black(7, 23, true).unwrap();
+        let packets = Packets::cut(&mut picture, &Region { columns, rows }, shape);
+        for index in 0..packets.len() {
+            let packet = packets.take(index).unwrap();
+            let intensities = packet.intensities.unwrap();
+            assert_eq!(packet.levels.len(), packet.region.rows.len());
+            assert_eq!(intensities.len(), packet.region.rows.len());
+            for (row, levels) in packet.region.rows.zip(packet.levels) {
+                assert_eq!(levels.len(), packet.region.columns.len());
+                for (column, level) in packet.region.columns.clone().zip(levels) {
+                    assert_eq!(*level, [0; 3]);
+                    *level = [row as u8, column as u8, 1];
                 }
-            },
-            || {},
-        )
-        .unwrap();
-        assert!(packets.take(0).is_none());
+            }
+            assert!(packets.take(index).is_none());
+        }
         picture
     }
 
     #[test]
-    fn packets_cover_their_rows_and_nothing_else() {
-        for schedule in Schedule::value_variants() {
-            for height in [1, 4, 23, 1000] {
-                for rows in [0..23, 0..1, 7..20, 22..23, 20..99, 30..99, 5..5] {
-                    let picture = paint(rows.clone(), height, *schedule);
+    fn packets_cover_their_region_and_nothing_else() {
+        let shapes = [(1, 0), (4, 0), (1000, 0), (1, 1), (4, 3), (5, 1000)];
+        for (height, width) in shapes {
+            for rows in [0..23, 7..20, 22..23, 20..99, 30..99, 5..5] {
+                for columns in [0..7, 2..5, 6..99, 9..99, 3..3] {
+                    let picture = paint(columns.clone(), rows.clone(), shape(height, width));
                     for (row, levels) in (0..).zip(picture.rows()) {
                         for (column, level) in (0..).zip(levels) {
-                            let painted = [row as u8, column, 1];
-                            let expected = if rows.contains(&row) { painted } else { [0; 3] };
-                            assert_eq!(*level, expected, "{rows:?} {height}");
+                            let inside = rows.contains(&row) && columns.contains(&column);
+                            let painted = [row as u8, column as u8, 1];
+                            let expected = if inside { painted } else { [0; 3] };
+                            assert_eq!(*level, expected, "{rows:?} {columns:?} {height} {width}");
                         }
                     }
                 }
             }
         }
+    }
+
+    #[test]
+    fn shapes_are_told_with_the_columns_first() {
+        let texts = [shape(1, 0), shape(4, 0), shape(8, 16)].map(|shape| shape.to_string());
+        assert_eq!(texts, ["1 row", "4 rows", "16 x 8 pixels"]);
     }
 }

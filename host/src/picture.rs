@@ -12,6 +12,7 @@ pub use format::{Format, RasDepth, Target, read};
 
 use fnv::FnvHasher;
 use std::hash::Hasher;
+use std::ops::Range;
 
 /// Red, green and blue in 8 bits, 255 being full intensity.
 pub type Level = [u8; 3];
@@ -97,6 +98,19 @@ impl Picture {
         (&mut self.levels, self.intensities.as_deref_mut())
     }
 
+    /// Fill the rows that are not among `rows` with a level, and with an intensity if there are any.
+    pub fn fill_outside(&mut self, rows: Range<u32>, (level, intensity): (Level, Intensity)) {
+        let width = self.width as usize;
+        let pixel = |row: u32| row.min(self.height) as usize * width;
+        let (above, below) = (..pixel(rows.start), pixel(rows.end.max(rows.start))..);
+        self.levels[above].fill(level);
+        self.levels[below.clone()].fill(level);
+        if let Some(intensities) = &mut self.intensities {
+            intensities[above].fill(intensity);
+            intensities[below].fill(intensity);
+        }
+    }
+
     /// The levels, a row at a time from the top.
     pub fn rows(&self) -> std::slice::ChunksExact<'_, Level> {
         self.levels.chunks_exact(self.width.max(1) as usize)
@@ -119,11 +133,12 @@ pub fn level(c: f32) -> u8 {
     (255.0 * f64::from(c.clamp(0.0, 1.0)) + 0.5) as u8
 }
 
+/// Memory of zeros that nobody has touched yet: the threads that fill it do that side by side. `None` when
+/// there is not enough.
 fn zeroed<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(count).ok()?;
-    values.resize(count, T::default());
-    Some(values)
+    // Only a try: `vec!` alone takes untouched zeros from the system, but ends the process without memory.
+    Vec::<T>::new().try_reserve_exact(count).ok()?;
+    Some(vec![T::default(); count])
 }
 
 #[cfg(test)]
@@ -153,6 +168,26 @@ mod tests {
         assert!(Picture::from_levels(2, 2, vec![[0; 3]; 3]).is_none());
         assert!(Picture::from_levels(2, 2, vec![[0; 3]; 4]).is_some());
         assert!(Picture::black(u32::MAX, u32::MAX, true).is_none());
+    }
+
+    #[test]
+    fn what_is_outside_of_some_rows_is_filled() {
+        let fill = |rows| {
+            let mut picture = Picture::black(1, 4, true).unwrap();
+            picture.fill_outside(rows, ([9; 3], [0.5; 3]));
+            let filled = picture
+                .intensities()
+                .unwrap()
+                .iter()
+                .map(|i| *i == [0.5; 3]);
+            let levels = picture.levels().iter().map(|level| *level == [9; 3]);
+            assert!(filled.clone().eq(levels));
+            filled.collect::<Vec<_>>()
+        };
+        assert_eq!(fill(1..3), [true, false, false, true]);
+        assert_eq!(fill(0..4), [false; 4]);
+        assert_eq!(fill(0..0), [true; 4]);
+        assert_eq!(fill(9..12), [true; 4]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::job::{RenderJob, StatsFormat};
 use crate::output;
 use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::stats::{Octree, Rays, Seconds, Stats};
+use crate::stats::{Octree, Rays, Seconds, Stats, Work};
 use crate::summary::Summary;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
@@ -38,10 +38,8 @@ pub struct Traced {
     pub build: Duration,
     /// Time to trace.
     pub render: Duration,
-    /// Threads that traced.
-    pub threads: usize,
-    /// Packets they were dealt.
-    pub packets: usize,
+    /// How it was done.
+    pub work: Work,
 }
 
 /// Do `job`, the tracing itself being done by `trace`.
@@ -96,9 +94,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
             build: traced.build.as_secs_f64(),
             render: traced.render.as_secs_f64(),
         },
-        threads: traced.threads,
-        schedule: job.work.schedule,
-        packets: traced.packets,
+        work: traced.work.clone(),
         hash: traced.picture.hash(),
     }
 }
@@ -106,11 +102,10 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deal::Policy;
     use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions, WorkOptions};
     use crate::picture::{self, RasDepth, Target};
-    use crate::schedule::Schedule;
     use std::fs;
-    use std::num::{NonZeroU32, NonZeroUsize};
     use std::path::Path;
 
     fn job(folder: &Path, scene: &str, output: &str) -> RenderJob {
@@ -135,11 +130,7 @@ mod tests {
                 max_depth: 8,
                 cut_off: 0.0,
             },
-            work: WorkOptions {
-                threads: NonZeroUsize::MIN,
-                schedule: Schedule::Dynamic,
-                packet_rows: NonZeroU32::MIN,
-            },
+            work: WorkOptions::default(),
             stats: StatsFormat::None,
         }
     }
@@ -168,8 +159,13 @@ mod tests {
             },
             build: Duration::ZERO,
             render: Duration::ZERO,
-            threads: 1,
-            packets: 1,
+            work: Work {
+                threads: 1,
+                schedule: Policy::Dynamic,
+                packet: WorkOptions::default().packet,
+                packets: 1,
+                idle: vec![0.0],
+            },
         })
     }
 

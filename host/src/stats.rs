@@ -1,8 +1,9 @@
 //! What a rendering cost: the object that `--stats json` prints.
 
+use crate::deal::Policy;
 use crate::facts::Facts;
 use crate::job::{Arith, Tree};
-use crate::schedule::Schedule;
+use crate::packets::Shape;
 use serde::{Serialize, Serializer};
 
 /// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
@@ -40,12 +41,9 @@ pub struct Stats {
     pub octree: Octree,
     /// Time per stage.
     pub seconds: Seconds,
-    /// Threads that traced.
-    pub threads: usize,
-    /// How packets were dealt to them.
-    pub schedule: Schedule,
-    /// How many packets there were.
-    pub packets: usize,
+    /// How it was done.
+    #[serde(flatten)]
+    pub work: Work,
     /// [`crate::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
     #[serde(serialize_with = "hexadecimal")]
     pub hash: u64,
@@ -99,6 +97,21 @@ pub struct Seconds {
     pub render: f64,
 }
 
+/// How threads did the work.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Work {
+    /// Threads that traced.
+    pub threads: usize,
+    /// How packets were dealt to them.
+    pub schedule: Policy,
+    /// How large packets were.
+    pub packet: Shape,
+    /// How many there were.
+    pub packets: usize,
+    /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
+    pub idle: Vec<f64>,
+}
+
 fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&format_args!("{hash:016x}"))
 }
@@ -106,6 +119,7 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::job::WorkOptions;
 
     /// Statistics in which every number is another.
     pub(crate) fn example() -> Stats {
@@ -146,9 +160,13 @@ pub(crate) mod tests {
                 build: 0.0025,
                 render: 0.25,
             },
-            threads: 2,
-            schedule: Schedule::Dynamic,
-            packets: 64,
+            work: Work {
+                threads: 2,
+                schedule: Policy::Dynamic,
+                packet: WorkOptions::default().packet,
+                packets: 64,
+                idle: vec![0.0005, 0.0],
+            },
             hash: 0x0012_3456_789a_bcde,
         }
     }
@@ -162,7 +180,8 @@ pub(crate) mod tests {
             r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
             r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
-            r#""threads":2,"schedule":"dynamic","packets":64,"hash":"00123456789abcde"}"#,
+            r#""threads":2,"schedule":"dynamic","packet":{"rows":4,"columns":null},"packets":64,"#,
+            r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );
         assert_eq!(text, expected);
     }

@@ -50,6 +50,7 @@ impl fmt::Display for Summary<'_> {
         let stages = stages.map(|(stage, seconds)| format!("{stage} {}", duration(seconds)));
         line(f, "time", &stages.join(", "))?;
         line(f, "work", &work(stats))?;
+        line(f, "idle", &idle(&stats.work.idle))?;
         Ok(())
     }
 }
@@ -108,15 +109,31 @@ fn work(stats: &Stats) -> String {
         }
         _ => String::new(),
     };
+    let work = &stats.work;
     let plural = |count| if count == 1 { "" } else { "s" };
     format!(
-        "{speed}{} thread{}, {} packet{}, {} schedule",
-        stats.threads,
-        plural(stats.threads),
-        thousands(stats.packets as u64),
-        plural(stats.packets),
-        stats.schedule.name()
+        "{speed}{} thread{}, {} packet{} of {}, {} schedule",
+        work.threads,
+        plural(work.threads),
+        thousands(work.packets as u64),
+        plural(work.packets),
+        work.packet,
+        work.schedule.name()
     )
+}
+
+/// For how long the threads had nothing to do.
+fn idle(idle: &[f64]) -> String {
+    let longest = idle.iter().copied().fold(0.0, f64::max);
+    let shortest = idle.iter().copied().fold(longest, f64::min);
+    match idle.len() {
+        1..=8 => idle
+            .iter()
+            .map(|s| duration(*s))
+            .collect::<Vec<_>>()
+            .join(", "),
+        _ => format!("{} to {} per thread", duration(shortest), duration(longest)),
+    }
 }
 
 /// Seconds to three digits, in a unit that suits.
@@ -155,7 +172,8 @@ object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
-work          1,524,292 rays/s, 2 threads, 64 packets, dynamic schedule
+work          1,524,292 rays/s, 2 threads, 64 packets of 4 rows, dynamic schedule
+idle          500 us, 0 us
 
 "#]]
         );
@@ -170,6 +188,13 @@ work          1,524,292 rays/s, 2 threads, 64 packets, dynamic schedule
         assert!(text.contains("arithmetic    f32\n"), "{text}");
         assert!(text.contains("depth 4, arena full: 7 leaves"), "{text}");
         assert!(!text.contains("rays/s"), "{text}");
+    }
+
+    #[test]
+    fn the_idle_time_of_many_threads_is_told_in_short() {
+        let times: Vec<_> = (1..=9).map(|i| f64::from(i) * 1e-3).collect();
+        assert_eq!(idle(&times), "1.0 ms to 9.0 ms per thread");
+        assert_eq!(idle(&times[..2]), "1.0 ms, 2.0 ms");
     }
 
     #[test]

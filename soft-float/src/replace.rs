@@ -10,7 +10,7 @@ macro_rules! replace {
             $(#[$doc])*
             // SAFETY: it is the compiler's name for a function of this signature and meaning.
             #[unsafe(no_mangle)]
-            pub extern "C" fn $name($($x: $t),+) -> $r $body
+            pub(crate) extern "C" fn $name($($x: $t),+) -> $r $body
         )+
     };
 }

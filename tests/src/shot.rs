@@ -7,10 +7,9 @@ use octray::job::{
 use octray::picture::{RasDepth, Target};
 use octray::progress::Progress;
 use octray::render::Traced;
-use octray::schedule::Schedule;
 use octray_scenes::model::Scene;
 use std::fs;
-use std::num::{NonZeroU32, NonZeroUsize};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// The scene files of the project, by name.
@@ -106,8 +105,7 @@ impl Shot {
             view: self.view,
             work: WorkOptions {
                 threads: NonZeroUsize::MIN,
-                schedule: Schedule::Dynamic,
-                packet_rows: NonZeroU32::MIN.saturating_add(3),
+                ..WorkOptions::default()
             },
             stats: StatsFormat::Text,
         };

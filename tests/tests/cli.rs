@@ -120,7 +120,9 @@ fn the_json_object_has_the_documented_fields() {
         "seconds",
         "threads",
         "schedule",
+        "packet",
         "packets",
+        "idle",
         "hash",
     ];
     let mut sorted = fields;
@@ -165,10 +167,17 @@ fn threads_schedules_and_packets_change_nothing() {
     let first = stats(folder.path(), "--threads 1 --packet-rows 1 -o first.ppm");
     let bytes = fs::read(folder.path().join("first.ppm")).unwrap();
     for threads in 1..=3 {
-        for schedule in ["dynamic", "static", "prescheduled"] {
-            for rows in [1, 2, 7] {
+        for schedule in [
+            "prescheduled",
+            "static",
+            "dynamic",
+            "guided",
+            "cost-ordered",
+            "work-stealing",
+        ] {
+            for packet in ["1", "2", "7", "9 --packet-columns 11"] {
                 let line = format!(
-                    "--threads {threads} --schedule {schedule} --packet-rows {rows} -o b.ppm"
+                    "--threads {threads} --schedule {schedule} --packet-rows {packet} -o b.ppm"
                 );
                 let stats = stats(folder.path(), &line);
                 assert_eq!(stats["rays"], first["rays"], "{line}");

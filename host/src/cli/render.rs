@@ -1,18 +1,18 @@
 //! Arguments of `octray render`.
 
 use super::value;
+use crate::deal::Policy;
 use crate::error::Error;
 use crate::job::{
     Arith, DEEPEST, Link, PixelsPerRay, RenderJob, StatsFormat, Tree, TreeOptions, ViewOptions,
     WorkOptions,
 };
+use crate::packets::Shape;
 use crate::picture::{RasDepth, Target};
-use crate::schedule::Schedule;
 use clap::{Args, value_parser};
 use std::fs;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
-use std::thread::available_parallelism;
 
 /// Arguments of `octray render`.
 #[derive(Clone, Debug, Args)]
@@ -68,12 +68,18 @@ pub struct RenderArgs {
     /// How many threads trace [default: one for each core]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>, help_heading = WORK)]
     threads: Option<NonZeroUsize>,
-    /// Which thread gets which packet of rows
+    /// Which thread gets which packet
     #[arg(long, value_name = "HOW", value_enum, default_value_t, help_heading = WORK)]
-    schedule: Schedule,
+    schedule: Policy,
     /// Rows of a packet
     #[arg(long, value_name = "H", default_value = "4", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     packet_rows: NonZeroU32,
+    /// Columns of a packet [default: all]
+    #[arg(long, value_name = "W", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
+    packet_columns: Option<NonZeroU32>,
+    /// Keep each thread on one core
+    #[arg(long, help_heading = WORK)]
+    pin: bool,
 }
 
 const RAYS: &str = "Rays";
@@ -91,8 +97,11 @@ impl RenderArgs {
             if self.samples > 1 {
                 return usage("--pixels-per-ray 4 and --samples above 1 contradict each other");
             }
-            if self.packet_rows.get() % 2 == 1 {
-                return usage("with --pixels-per-ray 4, --packet-rows must be even");
+            let sides = [Some(self.packet_rows), self.packet_columns];
+            if sides.into_iter().flatten().any(|side| side.get() % 2 == 1) {
+                return usage(
+                    "with --pixels-per-ray 4, --packet-rows and --packet-columns must be even",
+                );
             }
         }
         let output = match self.output {
@@ -132,12 +141,13 @@ impl RenderArgs {
                 cut_off: self.cut_off,
             },
             work: WorkOptions {
-                threads: self
-                    .threads
-                    .or_else(|| available_parallelism().ok())
-                    .unwrap_or(NonZeroUsize::MIN),
-                schedule: self.schedule,
-                packet_rows: self.packet_rows,
+                threads: self.threads.unwrap_or(WorkOptions::default().threads),
+                policy: self.schedule,
+                packet: Shape {
+                    rows: self.packet_rows,
+                    columns: self.packet_columns,
+                },
+                pin: self.pin,
             },
             stats: self.stats,
         })
@@ -180,8 +190,7 @@ mod tests {
         assert_eq!(job.view.pixels_per_ray, PixelsPerRay::One);
         assert_eq!((job.view.samples, job.view.max_depth), (1, 8));
         assert_eq!(job.view.cut_off, 1.0 / 512.0);
-        assert_eq!(job.work.schedule, Schedule::Dynamic);
-        assert_eq!(job.work.threads, available_parallelism().unwrap());
+        assert_eq!(job.work, WorkOptions::default());
         assert_eq!(job.stats, StatsFormat::Text);
     }
 
@@ -190,7 +199,7 @@ mod tests {
         let job = job(
             "a.nff -o b.RAS --arith i16f16 --size 3x5 --ras-depth 24 --stats json --pixels-per-ray 1 \
              --samples 3 --max-depth 4 --cut-off 0 --tree plain --tree-depth 7 --leaf-size 1 --arena 9 \
-             --link box --threads 5 --schedule prescheduled --packet-rows 3",
+             --link box --threads 5 --schedule work-stealing --packet-rows 3 --packet-columns 8 --pin",
         );
         assert_eq!(job.output.format, Format::Ras);
         assert_eq!(job.ras_depth, RasDepth::TwentyFour);
@@ -211,9 +220,16 @@ mod tests {
             link: Link::Box,
         };
         assert_eq!(job.tree, tree);
-        assert_eq!(job.work.threads.get(), 5);
-        assert_eq!(job.work.schedule, Schedule::Prescheduled);
-        assert_eq!(job.work.packet_rows.get(), 3);
+        let work = WorkOptions {
+            threads: NonZeroUsize::new(5).unwrap(),
+            policy: Policy::WorkStealing,
+            packet: Shape {
+                rows: NonZeroU32::new(3).unwrap(),
+                columns: NonZeroU32::new(8),
+            },
+            pin: true,
+        };
+        assert_eq!(job.work, work);
     }
 
     #[test]
@@ -221,6 +237,7 @@ mod tests {
         for flag in [
             "--threads 0",
             "--packet-rows 0",
+            "--packet-columns 0",
             "--samples 0",
             "--samples 65",
             "--size 0x1",
@@ -245,7 +262,7 @@ mod tests {
 
     #[test]
     fn contradictions_are_bad_usage() {
-        for flags in ["--samples 2", "--packet-rows 3"] {
+        for flags in ["--samples 2", "--packet-rows 3", "--packet-columns 5"] {
             let line = format!("a.scene --pixels-per-ray 4 {flags}");
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");

@@ -1,0 +1,63 @@
+//! Arguments of `octray stability`.
+
+use super::value;
+use crate::stability::StabilityJob;
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use octray_stability::method::Method;
+use octray_stability::sweep;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Arguments of `octray stability`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Truth is exact, and cases are the same on every machine. What holds, degrades and breaks is said above each table; \
+the limits are those around the gentlest value. In maps, a dot holds, a pale symbol degrades and a dark \
+one breaks.")]
+pub struct StabilityArgs {
+    /// The methods to look at [default: all]
+    #[arg(value_name = "METHOD", value_parser = method())]
+    methods: Vec<Method>,
+    /// Write a map of each method into this folder, as SVG and as PNG
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Write all that was measured as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write all that was measured as CSV, a line for each value, form and arithmetic
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Threads that measure [default: all cores]
+    #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>)]
+    threads: Option<NonZeroUsize>,
+}
+
+impl StabilityArgs {
+    /// The job that these arguments ask for.
+    pub fn job(self) -> StabilityJob {
+        StabilityJob {
+            methods: if self.methods.is_empty() {
+                sweep::ALL.to_vec()
+            } else {
+                self.methods
+            },
+            folder: self.output,
+            json: self.json,
+            csv: self.csv,
+            threads: self.threads.unwrap_or_else(|| {
+                std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+            }),
+        }
+    }
+}
+
+fn method() -> impl TypedValueParser<Value = Method> {
+    let values = sweep::ALL
+        .iter()
+        .map(|method| PossibleValue::new(method.about.name).help(method.about.title));
+    PossibleValuesParser::new(values).try_map(|name| {
+        let named = sweep::ALL.iter().find(|method| method.about.name == name);
+        named.copied().ok_or("no such method")
+    })
+}

@@ -1,0 +1,343 @@
+//! A scene made ready to be traced: one face for every arithmetic and every tree.
+//!
+//! Arithmetic and tree are chosen at run time among all that are compiled in, and only here, so that each
+//! pair of them is compiled once, whoever traces: `octray render`, the simulation of schedules, the ranks
+//! of a distributed rendering.
+
+use crate::error::Error;
+use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use crate::packets::Packet;
+use crate::picture::{Intensity, Level};
+use crate::stats::Octree;
+use octray_core::observe::Counters;
+use octray_core::octree::{
+    self, Accelerator, List, Octants, Options, Packed, Plane, Summary, Tight, Variant,
+};
+use octray_core::packet::Region;
+use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
+use octray_core::shape::ObjectRef;
+use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::vec3::Vec3;
+use octray_scenes::model::Scene;
+use octray_scenes::quantise::{self, Prepared, View};
+use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+
+/// A scene in one arithmetic, with one tree.
+pub trait Engine: Send + Sync {
+    /// What there is to know of it.
+    fn built(&self) -> &Built;
+
+    /// Somebody who traces parts of the picture, for one thread.
+    fn worker(&self) -> Box<dyn Worker + '_>;
+}
+
+/// Traces parts of a picture, one after the other, and counts.
+pub trait Worker: Send {
+    /// Fills a packet: its pixels, and the background where nothing is to be seen.
+    fn trace(&mut self, packet: Packet<'_>);
+
+    /// Traces some pixels only to count what they cost. What it learnt of the scene before is kept, so pixel
+    /// by pixel costs what all of them at once do.
+    fn probe(&mut self, region: &Region);
+
+    /// What was counted so far.
+    fn counters(&self) -> &Counters;
+}
+
+/// What there is to know of a scene that was made ready.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Built {
+    /// The number format, e.g. `i16f16`.
+    pub format: &'static str,
+    /// The scene was scaled by 2 to this power.
+    pub scale: i32,
+    /// The octree.
+    pub octree: Octree,
+    /// Columns and rows of the picture.
+    pub size: (u32, u32),
+    /// The pixels that may show anything but background.
+    pub active: Region,
+    /// The side of the square of pixels that one ray colours, 1 or 2.
+    pub block: u32,
+    /// The background.
+    pub background: (Level, Intensity),
+}
+
+/// Makes a scene ready.
+///
+/// # Errors
+/// [`Error::Failed`] if the scene does not fit the arithmetic or the tree.
+pub fn build(
+    scene: &Scene,
+    arith: Arith,
+    tree: &TreeOptions,
+    view: &ViewOptions,
+) -> Result<Box<dyn Engine>, Error> {
+    let plan = Plan { scene, tree, view };
+    match arith {
+        Arith::F64 => plan.build::<f64>(),
+        Arith::F32 => plan.build::<f32>(),
+        Arith::Approx0 => plan.build::<Approx<0>>(),
+        Arith::Approx1 => plan.build::<Approx<1>>(),
+        Arith::Approx2 => plan.build::<Approx<2>>(),
+        Arith::I24F8 => plan.build::<Fixed<8, true>>(),
+        Arith::I20F12 => plan.build::<Fixed<12, true>>(),
+        Arith::I16F16 => plan.build::<Fixed<16, true>>(),
+        Arith::I12F20 => plan.build::<Fixed<20, true>>(),
+        Arith::I8F24 => plan.build::<Fixed<24, true>>(),
+        Arith::I4F28 => plan.build::<Fixed<28, true>>(),
+        Arith::I32F32 => plan.build::<Fixed64>(),
+        Arith::Auto if plan.fits::<Fixed<28, true>>() => plan.build::<Fixed<28, true>>(),
+        Arith::Auto if plan.fits::<Fixed<24, true>>() => plan.build::<Fixed<24, true>>(),
+        Arith::Auto if plan.fits::<Fixed<20, true>>() => plan.build::<Fixed<20, true>>(),
+        Arith::Auto if plan.fits::<Fixed<16, true>>() => plan.build::<Fixed<16, true>>(),
+        Arith::Auto if plan.fits::<Fixed<12, true>>() => plan.build::<Fixed<12, true>>(),
+        Arith::Auto => plan.build::<Fixed<8, true>>(),
+    }
+}
+
+/// What is to be made ready, in whatever arithmetic.
+struct Plan<'a> {
+    scene: &'a Scene,
+    tree: &'a TreeOptions,
+    view: &'a ViewOptions,
+}
+
+impl Plan<'_> {
+    /// Whether the scene cannot overflow format `S`.
+    fn fits<S: Quantize>(&self) -> bool {
+        quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
+    }
+
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let view = View {
+            size: self.view.size,
+            pixels_per_ray: match self.view.pixels_per_ray {
+                PixelsPerRay::One => 1,
+                PixelsPerRay::Four => 4,
+            },
+            samples: self.view.samples,
+            max_depth: self.view.max_depth,
+        };
+        let mut prepared = quantise::quantise::<S>(self.scene, &view)
+            .map_err(|overflow| Error::Failed(overflow.to_string()))?;
+        let default_depth = match self.tree.kind {
+            Tree::Tight | Tree::Packed | Tree::None => 24,
+            Tree::Plain | Tree::Modified => 8,
+        };
+        let growth = Growth {
+            options: Options {
+                depth: self.tree.depth.unwrap_or(default_depth),
+                leaf_size: self.tree.leaf_size.map_or(2, std::num::NonZero::get),
+            },
+            arena: self.tree.arena.map(std::num::NonZero::get),
+        };
+        let link = match self.tree.link {
+            Link::Shape => octree::Link::Shape,
+            Link::Box => octree::Link::Box,
+        };
+        let objects = &mut prepared.scene;
+        match self.tree.kind {
+            Tree::Tight => {
+                let (tree, summary) = TightTree::build(objects, &growth);
+                Ok(self.ready(prepared, tree, summary))
+            }
+            Tree::Packed => {
+                let (tree, summary) = PackedTree::build(objects, &growth).map_err(|_| {
+                    Error::Failed("a packed tree holds at most 32767 objects".into())
+                })?;
+                Ok(self.ready(prepared, tree, summary))
+            }
+            Tree::Modified | Tree::Plain => {
+                let variant = match self.tree.kind {
+                    Tree::Plain => Variant::Plain,
+                    _ => Variant::Modified,
+                };
+                let (tree, summary) = OctantTree::build(objects, &growth, variant, link);
+                Ok(self.ready(prepared, tree, summary))
+            }
+            Tree::None => {
+                let all = every_object(&prepared.scene);
+                let summary = Summary {
+                    links: all.len() as u32,
+                    ..Summary::default()
+                };
+                Ok(self.ready(prepared, all, summary))
+            }
+        }
+    }
+
+    fn ready<S: Quantize, T: Grown<S> + 'static>(
+        &self,
+        prepared: Prepared<S>,
+        tree: T,
+        summary: Summary,
+    ) -> Box<dyn Engine> {
+        let background = prepared.scene.background;
+        let built = Built {
+            format: S::NAME,
+            scale: prepared.placement.exponent,
+            octree: Octree {
+                kind: self.tree.kind,
+                nodes: u64::from(summary.inner + summary.leaves),
+                links: u64::from(summary.links),
+                depth: summary.depth,
+                unsplit: u64::from(summary.unsplit),
+            },
+            size: self
+                .view
+                .size
+                .unwrap_or((self.scene.width, self.scene.height)),
+            active: prepared.frame.active().clone(),
+            block: prepared.frame.block(),
+            background: (level(background), intensity(background)),
+        };
+        Box::new(Ready {
+            prepared,
+            tree,
+            built,
+            max_depth: self.view.max_depth,
+            cut_off: S::from_f64(self.view.cut_off),
+        })
+    }
+}
+
+/// A tree in memory of its own.
+trait Grown<S: Quantize>: Send + Sync {
+    /// The tree as the tracer sees it.
+    type View<'a>: Accelerator<S> + Send
+    where
+        Self: 'a;
+
+    fn view(&self) -> Self::View<'_>;
+}
+
+impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for TightTree<P> {
+    type View<'a> = Tight<'a, P>;
+
+    fn view(&self) -> Tight<'_, P> {
+        self.tree()
+    }
+}
+
+impl<S: Quantize> Grown<S> for PackedTree {
+    type View<'a> = Packed<'a>;
+
+    fn view(&self) -> Packed<'_> {
+        self.tree()
+    }
+}
+
+impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for OctantTree<P> {
+    type View<'a> = Octants<'a, P>;
+
+    fn view(&self) -> Octants<'_, P> {
+        self.tree()
+    }
+}
+
+/// No tree: every object.
+impl<S: Quantize> Grown<S> for Vec<ObjectRef> {
+    type View<'a> = List<'a>;
+
+    fn view(&self) -> List<'_> {
+        List(self)
+    }
+}
+
+/// A scene in arithmetic `S` with a tree.
+struct Ready<S: Quantize, T> {
+    prepared: Prepared<S>,
+    tree: T,
+    built: Built,
+    max_depth: u32,
+    cut_off: S,
+}
+
+impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
+    fn built(&self) -> &Built {
+        &self.built
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        let scene = &self.prepared.scene;
+        Box::new(Tracing {
+            ready: self,
+            tree: self.tree.view(),
+            rays: vec![Pending::EMPTY; self.max_depth as usize + 2],
+            stack: Default::default(),
+            blockers: vec![None; scene.lights.len()],
+            counters: Counters::default(),
+        })
+    }
+}
+
+/// What one thread traces with.
+struct Tracing<'a, S: Quantize, T: Grown<S>> {
+    ready: &'a Ready<S, T>,
+    tree: T::View<'a>,
+    rays: Vec<Pending<S>>,
+    stack: <T::View<'a> as Accelerator<S>>::Stack,
+    blockers: Vec<Option<ObjectRef>>,
+    counters: Counters,
+}
+
+impl<S: Quantize, T: Grown<S>> Tracing<'_, S, T> {
+    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
+        let scene = self.ready.prepared.scene.scene();
+        let tracer = Tracer {
+            scene: &scene,
+            accelerator: &self.tree,
+            max_depth: self.ready.max_depth,
+            cut_off: self.ready.cut_off,
+        };
+        let mut workspace = Workspace {
+            rays: &mut self.rays,
+            stack: &mut self.stack,
+            blockers: &mut self.blockers,
+        };
+        let frame = &self.ready.prepared.frame;
+        frame.render_region(region, &tracer, &mut workspace, &mut self.counters, put);
+    }
+}
+
+impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
+    fn trace(&mut self, packet: Packet<'_>) {
+        let Packet {
+            region,
+            mut levels,
+            mut intensities,
+        } = packet;
+        let background = self.ready.built.background;
+        levels.iter_mut().for_each(|row| row.fill(background.0));
+        for row in intensities.iter_mut().flatten() {
+            row.fill(background.1);
+        }
+        // What blocked the lights last in another packet must not change what is counted in this one.
+        self.blockers.fill(None);
+        let (left, top) = (region.columns.start, region.rows.start);
+        self.render(&region, |x, y, colour| {
+            let (row, column) = ((y - top) as usize, (x - left) as usize);
+            levels[row][column] = level(colour);
+            if let Some(intensities) = &mut intensities {
+                intensities[row][column] = intensity(colour);
+            }
+        });
+    }
+
+    fn probe(&mut self, region: &Region) {
+        self.render(region, |_, _, _| {});
+    }
+
+    fn counters(&self) -> &Counters {
+        &self.counters
+    }
+}
+
+fn level<S: Quantize>(colour: Vec3<S>) -> Level {
+    colour.to_array().map(S::level)
+}
+
+fn intensity<S: Quantize>(colour: Vec3<S>) -> Intensity {
+    colour.to_array().map(|x| x.to_f64().clamp(0.0, 1.0) as f32)
+}

@@ -1,0 +1,74 @@
+//! `octray stability`: where methods hold, degrade and break, as a table, as data and as maps.
+
+mod data;
+mod map;
+mod table;
+
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::picture::{RasDepth, Target};
+use crate::progress::Progress;
+use octray_stability::method::Method;
+use octray_stability::survey::{self, survey};
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Which methods to look at, and what to tell of them.
+#[derive(Clone, Debug)]
+pub struct StabilityJob {
+    /// The methods.
+    pub methods: Vec<Method>,
+    /// Where to write the maps.
+    pub folder: Option<PathBuf>,
+    /// Where to write everything as JSON.
+    pub json: Option<PathBuf>,
+    /// Where to write everything as CSV.
+    pub csv: Option<PathBuf>,
+    /// How many threads measure.
+    pub threads: NonZeroUsize,
+}
+
+/// Measure, tell the limits on standard output, and write what else is asked for.
+///
+/// # Errors
+/// When something cannot be written or drawn, or the work is interrupted.
+pub fn run(job: &StabilityJob, interrupt: &Interrupt) -> Result<(), Error> {
+    if let Some(folder) = &job.folder {
+        fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
+    }
+    for file in [&job.json, &job.csv].into_iter().flatten() {
+        output::probe(file)?;
+    }
+    let progress = Progress::new("measuring");
+    progress.start(survey::steps(&job.methods));
+    let proceed = || {
+        progress.step();
+        !interrupt.requested()
+    };
+    let survey = survey(&job.methods, job.threads, &proceed).ok_or(Error::Interrupted)?;
+    drop(progress);
+    if let Some(file) = &job.json {
+        output::write_file(file, interrupt, |out| data::json(&survey, out))?;
+    }
+    if let Some(file) = &job.csv {
+        output::write_file(file, interrupt, |out| data::csv(&survey, out))?;
+    }
+    if let Some(folder) = &job.folder {
+        for outcome in &survey.outcomes {
+            let name = outcome.about.name;
+            let svg = map::svg(outcome)?;
+            let file = folder.join(format!("{name}.svg"));
+            output::write_file(&file, interrupt, |out| out.write_all(svg.as_bytes()))?;
+            let target = Target::new(folder.join(format!("{name}.png"))).map_err(Error::Failed)?;
+            target.write(&map::picture(outcome)?, RasDepth::default(), interrupt)?;
+        }
+    }
+    output::write_stdout(interrupt, |out| {
+        for outcome in &survey.outcomes {
+            writeln!(out, "{}", table::of(outcome))?;
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,91 @@
+//! All that was measured, as JSON and as CSV.
+
+use octray_stability::method::About;
+use octray_stability::number::ARITHMETICS;
+use octray_stability::survey::{Outcome, Survey};
+use octray_stability::tally::{Cause, State, Tally};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// One JSON object: each method with what it is about and its cells.
+pub(super) fn json(survey: &Survey, out: &mut dyn Write) -> io::Result<()> {
+    #[derive(Serialize)]
+    struct Told<'a> {
+        #[serde(flatten)]
+        about: &'a About,
+        cells: Vec<Row>,
+    }
+    let told: Vec<Told<'_>> = survey
+        .outcomes
+        .iter()
+        .map(|outcome| Told {
+            about: &outcome.about,
+            cells: rows(outcome).collect(),
+        })
+        .collect();
+    serde_json::to_writer(&mut *out, &told)?;
+    writeln!(out)
+}
+
+/// A line for each cell.
+pub(super) fn csv(survey: &Survey, out: &mut dyn Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    for outcome in &survey.outcomes {
+        for row in rows(outcome) {
+            writer.serialize(row)?;
+        }
+    }
+    writer.flush()
+}
+
+/// One cell, in words.
+#[derive(Serialize)]
+struct Row {
+    method: &'static str,
+    form: &'static str,
+    arithmetic: &'static str,
+    value: f64,
+    state: State,
+    cause: Cause,
+    cases: u32,
+    false_hits: u32,
+    false_misses: u32,
+    wrong_side: u32,
+    saturations: u32,
+    error: f64,
+    angle: f64,
+}
+
+fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {
+    let about = &outcome.about;
+    let lines = (0..about.forms.len()).flat_map(|f| (0..ARITHMETICS.len()).map(move |a| (f, a)));
+    lines.flat_map(move |(f, a)| {
+        let cells = about.values.iter().zip(outcome.row(f, a));
+        cells.map(move |(&value, cell)| {
+            let Tally {
+                cases,
+                false_hits,
+                false_misses,
+                wrong_side,
+                saturations,
+                error,
+                angle,
+            } = cell.tally;
+            Row {
+                method: about.name,
+                form: about.forms[f].name,
+                arithmetic: ARITHMETICS[a],
+                value,
+                state: cell.state,
+                cause: cell.cause,
+                cases,
+                false_hits,
+                false_misses,
+                wrong_side,
+                saturations,
+                error,
+                angle,
+            }
+        })
+    })
+}

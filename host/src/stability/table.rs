@@ -1,0 +1,96 @@
+//! Limits, to read.
+
+use comfy_table::{CellAlignment, Table, presets};
+use octray_stability::method::About;
+use octray_stability::number::ARITHMETICS;
+use octray_stability::survey::Outcome;
+use octray_stability::tally::{Bound, State};
+use std::fmt::Write;
+
+/// A method's title, its forms and bounds, and for each form and arithmetic the values up to which
+/// it holds, and up to which it does not break.
+pub(super) fn of(outcome: &Outcome) -> String {
+    let about = &outcome.about;
+    let mut text = format!("{} ({}): {}\n", about.title, about.name, about.axis);
+    for form in about.forms {
+        let _ = writeln!(text, "  {:<9} {}", form.name, form.label);
+    }
+    let (holds, degrades) = bounds(about);
+    let _ = writeln!(
+        text,
+        "  {:<9} {holds}\n  {:<9} {degrades}",
+        "holds", "degrades"
+    );
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN);
+    let mut head = vec![String::new()];
+    for form in about.forms {
+        head.push(format!("{} holds", form.name));
+        head.push("breaks beyond".into());
+    }
+    table.set_header(head);
+    for (a, arithmetic) in ARITHMETICS.iter().enumerate() {
+        let mut line = vec![String::from(*arithmetic)];
+        for f in 0..about.forms.len() {
+            line.push(limit(outcome, f, a, State::Holds));
+            line.push(limit(outcome, f, a, State::Degrades));
+        }
+        table.add_row(line);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    text + &table.trim_fmt() + "\n"
+}
+
+/// What holds and what degrades, in words.
+fn bounds(about: &About) -> (String, String) {
+    let bounds = &about.bounds;
+    let percent = |x: f64| format!("{} % wrong decisions", x * 100.0);
+    let side = |x: f64| format!("{} % on the wrong side", x * 100.0);
+    let error = |x: f64| format!("an error of {x} {}", about.unit);
+    let angle = |x: f64| format!("an angle of {x} rad");
+    let told = |pick: fn(&Bound) -> f64| {
+        let each = [
+            bounds.wrong.map(|b| percent(pick(&b))),
+            bounds.side.map(|b| side(pick(&b))),
+            bounds.error.map(|b| error(pick(&b))),
+            bounds.angle.map(|b| angle(pick(&b))),
+        ];
+        let each: Vec<String> = each.into_iter().flatten().collect();
+        format!("at most {}", each.join(", "))
+    };
+    (told(|b| b.holds), told(|b| b.degrades))
+}
+
+/// The values around the gentlest one where the state is no worse, a dash if there is none. An end
+/// of the sweep is marked: who knows what lies beyond.
+fn limit(outcome: &Outcome, form: usize, arithmetic: usize, state: State) -> String {
+    let about = &outcome.about;
+    let Some(range) = outcome.limits(form, arithmetic, state) else {
+        return "-".into();
+    };
+    let (low, high) = (*range.start(), *range.end());
+    let high_text = if about.values.last() == Some(&high) {
+        format!("≥ {}", number(high))
+    } else {
+        number(high)
+    };
+    if about.values.first() == Some(&about.home) {
+        return high_text;
+    }
+    if about.values.first() == Some(&low) {
+        format!("≤ {} to {high_text}", number(low))
+    } else {
+        format!("{} to {high_text}", number(low))
+    }
+}
+
+/// A value as short as can be.
+pub(super) fn number(x: f64) -> String {
+    if (0.01..1e4).contains(&x) || x == 0.0 {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}

@@ -1,0 +1,122 @@
+//! Exact truth: binary floats of 512 bits.
+//!
+//! Sums and products of a few numbers of any format under test are exact in them; quotients, roots
+//! and powers are right to 150 digits.
+
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+
+/// A number of 512 bits.
+pub type Exact = FBig<HalfEven, 2>;
+
+/// A point or a direction.
+pub type Exact3 = [Exact; 3];
+
+const BITS: usize = 512;
+
+/// The very value of a finite `x`; 0 for any other.
+pub fn exact(x: f64) -> Exact {
+    let number = Exact::try_from(x).unwrap_or(Exact::ZERO);
+    number.with_precision(BITS).value()
+}
+
+/// The nearest `f64`.
+pub fn near(x: &Exact) -> f64 {
+    x.to_f64().value()
+}
+
+/// The square root; 0 of a negative number.
+pub fn root(x: &Exact) -> Exact {
+    if *x > Exact::ZERO {
+        x.sqrt()
+    } else {
+        exact(0.0)
+    }
+}
+
+/// The very values of three numbers.
+pub fn exact3(v: [f64; 3]) -> Exact3 {
+    v.map(exact)
+}
+
+/// The sum.
+pub fn add(a: &Exact3, b: &Exact3) -> Exact3 {
+    [&a[0] + &b[0], &a[1] + &b[1], &a[2] + &b[2]]
+}
+
+/// The difference.
+pub fn sub(a: &Exact3, b: &Exact3) -> Exact3 {
+    [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
+}
+
+/// The multiple.
+pub fn times(a: &Exact3, factor: &Exact) -> Exact3 {
+    [&a[0] * factor, &a[1] * factor, &a[2] * factor]
+}
+
+/// The dot product.
+pub fn dot(a: &Exact3, b: &Exact3) -> Exact {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+/// The cross product.
+pub fn cross(a: &Exact3, b: &Exact3) -> Exact3 {
+    [
+        &a[1] * &b[2] - &a[2] * &b[1],
+        &a[2] * &b[0] - &a[0] * &b[2],
+        &a[0] * &b[1] - &a[1] * &b[0],
+    ]
+}
+
+/// The length.
+pub fn length(a: &Exact3) -> Exact {
+    root(&dot(a, a))
+}
+
+/// The unit vector; the null vector gives itself.
+pub fn unit(a: &Exact3) -> Exact3 {
+    let length = length(a);
+    if length == Exact::ZERO {
+        return a.clone();
+    }
+    [&a[0] / &length, &a[1] / &length, &a[2] / &length]
+}
+
+/// The angle between two directions, in radians, 0 to π; π where one of them is null.
+pub fn angle(a: &Exact3, b: &Exact3) -> f64 {
+    let sine = length(&cross(a, b));
+    let cosine = dot(a, b);
+    if sine == Exact::ZERO && cosine <= Exact::ZERO {
+        return core::f64::consts::PI;
+    }
+    libm::atan2(near(&sine), near(&cosine))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_products_are_exact() {
+        let (big, small) = (exact(1e15), exact(1e-15));
+        let difference = (&big + &small) * (&big - &small) - &big * &big;
+        assert_eq!(difference, -(&small * &small));
+    }
+
+    #[test]
+    fn roots_and_quotients_are_long() {
+        let two = exact(2.0);
+        let rest = root(&two) * root(&two) - &two;
+        assert!(near(&rest).abs() < 1e-150);
+        let third = exact(1.0) / exact(3.0);
+        assert!(near(&(third * exact(3.0) - exact(1.0))).abs() < 1e-150);
+    }
+
+    #[test]
+    fn angles_are_precise_however_small() {
+        let a = exact3([1.0, 0.0, 0.0]);
+        let b = exact3([1.0, 1e-30, 0.0]);
+        assert!((angle(&a, &b) - 1e-30).abs() < 1e-44);
+        assert_eq!(angle(&a, &exact3([0.0; 3])), core::f64::consts::PI);
+    }
+}

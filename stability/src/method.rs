@@ -1,0 +1,91 @@
+//! A method under test: what it is about, and how it is measured in every arithmetic.
+
+use crate::number::{ARITHMETICS, Number};
+use crate::tally::{Bounds, Tally};
+use octray_core::scalar::{Approx, Fixed, Fixed64};
+use serde::Serialize;
+
+/// One way to compute the same thing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Form {
+    /// A short name, for records and files.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub label: &'static str,
+}
+
+/// The form that octray ships is the first of each method, and has this name.
+pub const SHIPPED: &str = "shipped";
+
+/// What a sweep is about.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct About {
+    /// The method's name on the command line.
+    pub name: &'static str,
+    /// Its title.
+    pub title: &'static str,
+    /// What is swept, as an axis has it.
+    pub axis: &'static str,
+    /// What one error is measured in; empty where none is.
+    pub unit: &'static str,
+    /// The values swept.
+    #[serde(skip)]
+    pub values: &'static [f64],
+    /// The value that is most gentle to the method: limits are looked for from there.
+    pub home: f64,
+    /// The forms: the shipped one first.
+    pub forms: &'static [Form],
+    /// What holds, degrades and breaks.
+    pub bounds: Bounds,
+}
+
+/// A method, measured at one value of its sweep in one arithmetic: one tally for each form.
+pub trait Sweep {
+    /// What it is about.
+    const ABOUT: About;
+
+    /// Measures all forms at `value`.
+    fn measure<S: Number>(value: f64) -> Vec<Tally>;
+}
+
+/// A sweep whose type has been forgotten.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// What it is about.
+    pub about: About,
+    runners: [fn(f64) -> Vec<Tally>; ARITHMETICS.len()],
+}
+
+impl Method {
+    /// The method of a sweep.
+    pub const fn of<W: Sweep>() -> Self {
+        Self {
+            about: W::ABOUT,
+            runners: [
+                W::measure::<f64>,
+                W::measure::<f32>,
+                W::measure::<Approx<2>>,
+                W::measure::<Approx<1>>,
+                W::measure::<Approx<0>>,
+                W::measure::<Fixed64>,
+                W::measure::<Fixed<28, true>>,
+                W::measure::<Fixed<24, true>>,
+                W::measure::<Fixed<20, true>>,
+                W::measure::<Fixed<16, true>>,
+                W::measure::<Fixed<12, true>>,
+                W::measure::<Fixed<8, true>>,
+            ],
+        }
+    }
+
+    /// Measures all forms at `value` in arithmetic number `arithmetic` of [`ARITHMETICS`].
+    pub fn measure(&self, arithmetic: usize, value: f64) -> Vec<Tally> {
+        self.runners[arithmetic](value)
+    }
+}
+
+/// 1 to 10⁷, three values a decade.
+pub const SEVEN_DECADES: &[f64] = &[
+    1.0, 2.0, 5.0, 1e1, 2e1, 5e1, 1e2, 2e2, 5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6,
+    2e6, 5e6, 1e7,
+];

@@ -1,0 +1,153 @@
+//! A sphere seen from far away.
+
+use crate::exact::{Exact, Exact3, add, angle, dot, exact, near, root, sub, times};
+use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
+use crate::number::{self, Number, counted, exactly, floats, slack, span, vector};
+use crate::random::{self, Random};
+use crate::tally::{Bounds, Tally, bound};
+use octray_core::ray::Ray;
+use octray_core::shape::{self, Kind, ObjectRef, Outlines, Shapes};
+use octray_core::vec3::Vec3;
+
+/// Rays that pass a sphere's centre at ½ … 2 radii, from a distance of 2 to 10⁷ radii.
+#[derive(Debug)]
+pub struct Sphere;
+
+impl Sweep for Sphere {
+    const ABOUT: About = About {
+        name: "sphere",
+        title: "Sphere from far away",
+        axis: "distance / radius",
+        unit: "radii in t",
+        values: SEVEN_DECADES.split_at(1).1,
+        home: 2.0,
+        forms: &[
+            Form {
+                name: SHIPPED,
+                label: "discriminant from the perpendicular vector",
+            },
+            Form {
+                name: "textbook",
+                label: "thesis (2.8): b² − c",
+            },
+        ],
+        bounds: Bounds {
+            wrong: Some(bound(0.0, 0.05)),
+            error: Some(bound(0.01, 0.25)),
+            angle: Some(bound(0.02, 0.25)),
+            ..Bounds::NONE
+        },
+    };
+
+    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+        let mut tallies = vec![Tally::default(); 2];
+        let mut random = Random::new(1);
+        let distance = span::<S>() / 2.0;
+        let radius = S::from_f64(distance / value);
+        for aim in [0.0, 0.3, 0.5, 0.8, 0.9, 1.1, 1.3, 2.0].repeat(6) {
+            let towards = random.direction();
+            let aside = random.across(towards);
+            let direction = number::direction::<S>(towards);
+            let sphere = shape::Sphere {
+                centre: vector(random::times(towards, distance / 2.0)),
+                radius,
+            };
+            // Aimed with the direction as it is rounded, or far away all rays would miss.
+            let back = random::times(floats(direction), -distance);
+            let off = random::times(aside, aim * radius.to_f64());
+            let origin = random::add(floats(sphere.centre), random::add(back, off));
+            let ray = number::ray(origin, direction);
+            compare(&sphere, &ray, &mut tallies, &[stable, textbook]);
+        }
+        tallies
+    }
+}
+
+/// A form: the distance of the hit and the unit normal there.
+pub(super) type Hit<S> = fn(&shape::Sphere<S>, &Ray<S>) -> Option<(S, Vec3<S>)>;
+
+/// Measures forms on one ray. Errors of t count in radii.
+pub(super) fn compare<S: Number>(
+    sphere: &shape::Sphere<S>,
+    ray: &Ray<S>,
+    tallies: &mut [Tally],
+    forms: &[Hit<S>],
+) {
+    let truth = truth(sphere, ray);
+    for (form, tally) in forms.iter().zip(tallies) {
+        let (found, saturations) = counted(|| form(sphere, ray));
+        tally.saturations += saturations;
+        tally.decide(truth.is_some(), found.is_some());
+        if let (Some((t, normal)), Some((found_t, found_normal))) = (&truth, found) {
+            tally.err(near(&((found_t.exact() - t) / sphere.radius.exact())));
+            tally.turn(angle(normal, &exactly(found_normal)));
+        }
+    }
+}
+
+/// The parameter of the first hit at t > 0, and the outward normal, not normalised.
+pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(Exact, Exact3)> {
+    let (origin, direction) = (exactly(ray.origin), exactly(ray.direction));
+    let (centre, radius) = (exactly(sphere.centre), sphere.radius.exact());
+    let to_centre = sub(&centre, &origin);
+    let a = dot(&direction, &direction);
+    let b = dot(&direction, &to_centre);
+    let c = dot(&to_centre, &to_centre) - &radius * &radius;
+    let discriminant = &b * &b - &a * c;
+    if discriminant < Exact::ZERO {
+        return None;
+    }
+    let half_chord = root(&discriminant);
+    let first = (&b - &half_chord) / &a;
+    let t = if first > Exact::ZERO {
+        first
+    } else {
+        (b + half_chord) / a
+    };
+    (t > exact(0.0)).then(|| {
+        let point = add(&origin, &times(&direction, &t));
+        (t, sub(&point, &centre))
+    })
+}
+
+/// The one sphere as a scene's shapes.
+pub(super) fn shapes<S: Number>(sphere: &[shape::Sphere<S>]) -> Shapes<'_, S> {
+    Shapes {
+        spheres: sphere,
+        triangles: &[],
+        polygons: &[],
+        cones: &[],
+        cuboids: &[],
+        outlines: Outlines {
+            corners: &[],
+            bands: &[],
+            edges: &[],
+        },
+        patches: &[],
+        normals: &[],
+        slack: slack::<S>(),
+    }
+}
+
+/// What octray does.
+pub(super) fn stable<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
+    let shapes = shapes(std::slice::from_ref(sphere));
+    let object = ObjectRef::new(Kind::Sphere, 0);
+    let t = shapes.hit(object, ray, S::MAX)?;
+    Some((t, shapes.contact(object, ray, t).outward))
+}
+
+/// Thesis (2.8). The difference is formed in the wide type, so that fixed point has a chance.
+pub(super) fn textbook<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
+    let to_centre = sphere.centre - ray.origin;
+    let b = to_centre.dot(ray.direction);
+    let c = to_centre.dot_wide(to_centre) - S::product(sphere.radius, sphere.radius);
+    let discriminant = S::product(b, b) - c;
+    if discriminant < S::product(S::ZERO, S::ZERO) {
+        return None;
+    }
+    let half_chord = S::sqrt_wide(discriminant);
+    let near = b - half_chord;
+    let t = if near > S::ZERO { near } else { b + half_chord };
+    (t > S::ZERO).then(|| (t, (ray.at(t) - sphere.centre).unit().0))
+}
