@@ -5,16 +5,15 @@
 //! | `OCTRAY_SCENE` | the scene file, from the workspace's folder | `scenes/figure-22.scene` |
 //! | `OCTRAY_ARITH` | the arithmetic | `auto` |
 //! | `OCTRAY_SIZE` | columns x rows | `160x120` |
-//! | `OCTRAY_TREE` | `packed` or `none` | `packed` |
+//! | `OCTRAY_TREE` | `packed`, `device` (built on the board), `none`, or `auto`: `packed` where it pays | `auto` |
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 2 |
-//! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 1 |
+//! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 0 |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_core::octree;
-use octray_scenes::bake::{Options, bake};
+use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::quantise::View;
-use octray_scenes::tree::Growth;
 use std::path::Path;
 use std::{env, fs, process};
 
@@ -40,12 +39,12 @@ fn number(name: &str, default: &str) -> Result<u32, String> {
 fn run() -> Result<(), String> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=link");
-    println!("cargo::rustc-check-cfg=cfg(octray_counts)");
+    println!("cargo::rustc-check-cfg=cfg(octray_counts, octray_device_tree)");
     let out = env::var("OUT_DIR").map_err(|error| error.to_string())?;
     let source = baked()?;
     let written = fs::write(Path::new(&out).join("baked.rs"), source);
     written.map_err(|error| format!("cannot write the baked scene: {error}"))?;
-    if number("OCTRAY_COUNTS", "1")? != 0 {
+    if number("OCTRAY_COUNTS", "0")? != 0 {
         println!("cargo::rustc-cfg=octray_counts");
     }
     let board = variable("OCTRAY_BOARD", "virt");
@@ -82,13 +81,19 @@ fn baked() -> Result<String, String> {
         depth: 24,
         leaf_size: number("OCTRAY_LEAF_SIZE", "2")?,
     };
-    let tree = match &*variable("OCTRAY_TREE", "packed") {
-        "packed" => Some(Growth {
-            options,
-            arena: None,
-        }),
-        "none" => None,
-        other => return Err(format!("OCTRAY_TREE={other}: expected packed or none")),
+    let arith = variable("OCTRAY_ARITH", "auto");
+    let tree = match &*variable("OCTRAY_TREE", "auto") {
+        "auto" if !tree_pays(scene.objects.len(), &arith) => Tree::None,
+        "packed" | "auto" => Tree::Packed(options),
+        "device" => {
+            println!("cargo::rustc-cfg=octray_device_tree");
+            Tree::Device(options)
+        }
+        "none" => Tree::None,
+        other => {
+            let known = "packed, device, none or auto";
+            return Err(format!("OCTRAY_TREE={other}: expected {known}"));
+        }
     };
     let options = Options {
         name: &path.file_stem().unwrap_or_default().to_string_lossy(),
@@ -101,7 +106,21 @@ fn baked() -> Result<String, String> {
         cut_off: 1.0 / 512.0,
         tree,
     };
-    bake(&scene, &variable("OCTRAY_ARITH", "auto"), &options)
+    bake(&scene, &arith, &options)
         .map(|baked| baked.source)
         .map_err(|error| error.to_string())
+}
+
+/// Whether walking a tree costs less than trying every object: for fewer of them where a test is
+/// made of emulated floats, or of long products that the core does not have. Measured.
+fn tree_pays(objects: usize, arith: &str) -> bool {
+    let target = env::var("TARGET").unwrap_or_default();
+    let has_floats = target.ends_with("hf") || target.starts_with("riscv32imafc");
+    let is_float = arith.starts_with('f') || arith.starts_with("approx");
+    objects
+        >= match (is_float, has_floats) {
+            (true, false) => 3,
+            _ if target.starts_with("thumbv6m") => 5,
+            _ => 8,
+        }
 }

@@ -32,18 +32,41 @@ pub struct Camera<S> {
 }
 
 impl<S: Scalar> Camera<S> {
-    /// The ray through (x, y), each in (−1, 1).
+    /// What the rays at height `y`, in (−1, 1), have in common.
     #[inline(always)]
-    pub fn ray(&self, x: S, y: S) -> Ray<S> {
-        let aside = self.right * x + self.up * y;
-        match self.projection {
+    pub fn row(&self, y: S) -> Row<'_, S> {
+        let middle = match self.projection {
+            Projection::Perspective => self.forward,
+            Projection::Parallel => self.origin,
+        };
+        Row {
+            camera: self,
+            middle: middle + self.up * y,
+        }
+    }
+}
+
+/// The rays at one height of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a, S> {
+    camera: &'a Camera<S>,
+    /// From the eye to the middle of the row; parallel: where its middle ray starts.
+    middle: Vec3<S>,
+}
+
+impl<S: Scalar> Row<'_, S> {
+    /// The ray through `x`, in (−1, 1).
+    #[inline(always)]
+    pub fn ray(&self, x: S) -> Ray<S> {
+        let place = self.middle + self.camera.right * x;
+        match self.camera.projection {
             Projection::Perspective => Ray {
-                origin: self.origin,
-                direction: (self.forward + aside).unit().0,
+                origin: self.camera.origin,
+                direction: place.unit().0,
             },
             Projection::Parallel => Ray {
-                origin: self.origin + aside,
-                direction: self.forward,
+                origin: place,
+                direction: self.camera.forward,
             },
         }
     }

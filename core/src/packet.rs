@@ -99,7 +99,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// Renders the active pixels of some rows, and hands each to `put` with its column, its row
-    /// and its colour in [0, 1]. Blocks that begin above the rows are not rendered.
+    /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
     pub fn render<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
         &self,
         rows: Range<u32>,
@@ -131,9 +131,15 @@ impl<S: Scalar> Frame<S> {
         let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
         let mut row = first(&rows);
         while row < rows.end {
+            let line = self.0.camera.row(self.height(row, 0));
             let mut column = first(&columns);
             while column < columns.end {
-                let colour = self.colour(column, row, tracer, workspace, observer);
+                let colour = if self.0.samples == 1 {
+                    let ray = line.ray(self.aside(column, 0));
+                    tracer.radiance(ray, workspace, observer)
+                } else {
+                    self.average(column, row, tracer, workspace, observer)
+                };
                 for y in row..(row + block).min(rows.end) {
                     for x in column..(column + block).min(columns.end) {
                         put(x, y, colour);
@@ -145,9 +151,9 @@ impl<S: Scalar> Frame<S> {
         }
     }
 
-    /// The colour of the block whose upper left pixel is given.
-    #[inline(always)]
-    fn colour<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+    /// The mean colour of the samples of the block whose upper left pixel is given.
+    #[inline(never)]
+    fn average<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
         &self,
         column: u32,
         row: u32,
@@ -155,34 +161,42 @@ impl<S: Scalar> Frame<S> {
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Vec3<S> {
-        if self.0.samples == 1 {
-            let (x, y) = self.place(column, row, 0, 0);
-            return clamp(tracer.radiance(self.0.camera.ray(x, y), workspace, observer));
-        }
         let mut sum = Vec3::ZERO;
         for sub_row in 0..self.0.samples {
+            let line = self.0.camera.row(self.height(row, sub_row));
             for sub_column in 0..self.0.samples {
-                let (x, y) = self.place(column, row, sub_column, sub_row);
-                let colour = tracer.radiance(self.0.camera.ray(x, y), workspace, observer);
+                let ray = line.ray(self.aside(column, sub_column));
+                let colour = tracer.radiance(ray, workspace, observer);
                 sum = sum + clamp(colour) * self.0.share;
             }
         }
-        clamp(sum)
+        sum
     }
 
     /// Where in the camera's picture a sample lies, from −1 to 1.
     #[inline(always)]
     pub fn place(&self, column: u32, row: u32, sub_column: u32, sub_row: u32) -> (S, S) {
-        // In units of a 2·samples-th of a pixel, from the upper left corner: twice the block's
-        // start, and the middle of the sub-cell.
-        let at = |start: u32, sub: u32| 2 * self.0.samples * start + self.0.block * (2 * sub + 1);
-        let (width, height) = (
-            self.0.samples * self.0.width,
-            self.0.samples * self.0.height,
-        );
-        let x = at(column, sub_column) as i32 - width as i32;
-        let y = height as i32 - at(row, sub_row) as i32;
-        (S::ratio(x, self.0.across), S::ratio(y, self.0.down))
+        (self.aside(column, sub_column), self.height(row, sub_row))
+    }
+
+    #[inline(always)]
+    fn aside(&self, column: u32, sub: u32) -> S {
+        let width = self.0.samples * self.0.width;
+        let x = self.middle(column, sub) as i32 - width as i32;
+        S::ratio(x, self.0.across)
+    }
+
+    #[inline(always)]
+    fn height(&self, row: u32, sub: u32) -> S {
+        let height = self.0.samples * self.0.height;
+        let y = height as i32 - self.middle(row, sub) as i32;
+        S::ratio(y, self.0.down)
+    }
+
+    /// The middle of a sample in units of a 2·samples-th of a pixel, from the upper left corner.
+    #[inline(always)]
+    fn middle(&self, start: u32, sub: u32) -> u32 {
+        2 * self.0.samples * start + self.0.block * (2 * sub + 1)
     }
 
     /// The camera.

@@ -15,10 +15,13 @@ mod fixed;
 mod float;
 pub(crate) mod multiply;
 mod root;
+mod whole;
+mod zeros;
 
 pub use approx::Approx;
-pub(crate) use fixed::reciprocal_q30;
+pub(crate) use fixed::reciprocal_q15;
 pub use fixed::{Fixed, Fixed64, Reciprocal, reset_saturations, saturations};
+pub(crate) use zeros::leading_zeros;
 
 use crate::octree::{Plane, Slope};
 use core::fmt::Debug;
@@ -145,6 +148,11 @@ pub trait Scalar:
     /// See [`Scalar::grid`].
     const GRID_SLACK: i32;
 
+    /// Whether hits always lie within [`Quantize::SLACK`] of the true surface. Where they do not,
+    /// a hit's point has to be looked for in its object's box, and an octree that links objects by
+    /// exact shape would miss hits that brute force finds.
+    const SOUND: bool;
+
     /// A direction's component with 30 bits behind the point.
     fn slope_q30(self) -> i32;
 
@@ -180,9 +188,6 @@ pub trait Quantize: Scalar {
     /// How far a computed hit point, not refined, can lie from its shape, as a share of the
     /// largest distance in the scene. Bounding boxes are this much larger than their shapes.
     const SLACK: f64;
-    /// Whether hits always lie within [`Quantize::SLACK`] of the true surface. Where they do not,
-    /// an octree that links objects by exact shape would miss hits that brute force finds.
-    const SOUND: bool;
     /// The nearest value; saturates, NaN gives 0.
     fn from_f64(x: f64) -> Self;
     /// The exact value (the 64-bit fixed format: rounded to nearest).

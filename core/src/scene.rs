@@ -77,6 +77,8 @@ pub struct Light<S> {
     pub position: Vec3<S>,
     /// How bright it is.
     pub colour: Vec3<S>,
+    /// The [`Scalar::surface_error`] of a flat surface at the light, which does not block it.
+    pub clearance: S,
 }
 
 impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {

@@ -15,27 +15,51 @@ pub(crate) struct Point<S> {
     pub(crate) contact: Contact<S>,
     /// The shading normal, turned to face the incoming ray.
     pub(crate) normal: Vec3<S>,
-    /// The mirror direction, a unit vector; null where the surface has no use for it.
+    /// Whether the surface's own normal faces the other way.
+    pub(crate) turned: bool,
+    /// Whether the shading normal is not the surface's own.
+    pub(crate) smooth: bool,
+    /// The mirror direction; null where the surface has no use for it.
     pub(crate) mirror: Vec3<S>,
+    /// Whether it is a unit vector; what only shines needs that where a light is in sight.
+    pub(crate) is_unit: bool,
     /// How far off the surface new rays start; see [`Scalar::surface_error`].
     pub(crate) error: S,
+    /// So far along the surface's own normal.
+    pub(crate) offset: Vec3<S>,
 }
 
 impl<S: Scalar> Point<S> {
-    /// A ray from here. It starts off the surface, on the side to which it leaves: there it cannot
-    /// meet the surface it comes from.
+    /// A ray from here, back to where the incoming one came from or through the surface. It starts
+    /// off the surface, on the side to which it leaves: there it cannot meet the surface it comes
+    /// from.
     #[inline(always)]
-    pub(crate) fn ray(&self, direction: Vec3<S>) -> Ray<S> {
-        let outward = self.contact.outward;
-        let offset = if outward.dot(direction) < S::ZERO {
-            -self.error
+    pub(crate) fn ray<const NEEDS: Needs>(&self, direction: Vec3<S>, back: bool) -> Ray<S> {
+        let outward = if needs::needs(NEEDS, needs::PATCHES) && self.smooth {
+            self.contact.outward.dot(direction) >= S::ZERO
         } else {
-            self.error
+            back != self.turned
         };
-        Ray {
-            origin: self.contact.point + outward * offset,
-            direction,
+        let point = self.contact.point;
+        let origin = if outward {
+            point + self.offset
+        } else {
+            point - self.offset
+        };
+        Ray { origin, direction }
+    }
+
+    /// The cosine between the mirror direction and a unit vector; `None` where it is not positive.
+    #[inline(always)]
+    fn glance(&mut self, to_light: Vec3<S>) -> Option<S> {
+        if !self.is_unit {
+            if self.mirror.dot(to_light) <= S::ZERO {
+                return None;
+            }
+            self.mirror = self.mirror.unit().0;
+            self.is_unit = true;
         }
+        Some(self.mirror.dot(to_light)).filter(|cosine| *cosine > S::ZERO)
     }
 }
 
@@ -46,7 +70,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
     scene: &Scene<'_, S, NEEDS>,
     accelerator: &A,
     surface: &Surface<S>,
-    point: &Point<S>,
+    mut point: Point<S>,
     stack: &mut A::Stack,
     blockers: &mut [Option<ObjectRef>],
     observer: &mut O,
@@ -56,15 +80,20 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
         return sum;
     }
     for (i, light) in scene.lights.iter().enumerate() {
-        let (to_light, distance) = (light.position - point.contact.point).unit();
+        let to_light = light.position - point.contact.point;
+        // Most lights behind a surface are told without a root.
+        if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
+            continue;
+        }
+        let (to_light, distance) = to_light.unit();
         let facing = point.normal.dot(to_light);
         if facing <= S::ZERO {
             continue;
         }
         observer.ray(RayKind::Shadow);
-        let ray = point.ray(to_light);
+        let ray = point.ray::<NEEDS>(to_light, true);
         // A surface at the light itself does not block it.
-        let limit = distance - S::surface_error(light.position.size(), S::ZERO) - point.error;
+        let limit = distance - light.clearance - point.error;
         let last = blockers.get(i).copied().flatten();
         let still = last.filter(|&object| {
             observer.test();
@@ -88,9 +117,12 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
                     ..surface.shine
                 }
             };
-            let glance = point.mirror.dot(to_light);
-            let shine = glance.max(S::ZERO).power(exponent);
-            share = share + surface.specular * shine;
+            if let Some(glance) = point.glance(to_light) {
+                share = share + surface.specular * glance.power(exponent);
+            } else if exponent == Exponent::default() {
+                // 0⁰ is 1.
+                share = share + surface.specular;
+            }
         }
         sum = sum + light.colour.times(share);
     }

@@ -2,7 +2,8 @@
 //! surface is like at a point.
 //!
 //! A hit counts only if the computed point lies in the shape's own box. That makes a hit, in any
-//! arithmetic however coarse, something that an octree of boxes cannot miss.
+//! arithmetic however coarse, something that an octree of boxes cannot miss. For spheres and boxes
+//! in arithmetics that are [sound](Scalar::SOUND) it goes without asking.
 
 mod cone;
 mod cuboid;

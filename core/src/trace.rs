@@ -92,7 +92,12 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
                     self.meet(&next, hit, workspace, &mut waiting, observer)
                 }
             };
-            let light = light * next.weight;
+            // The weight of a camera's ray is 1.
+            let light = if next.depth == 0 {
+                light
+            } else {
+                light * next.weight
+            };
             sum.x = sum.x.accumulate(light.x);
             sum.y = sum.y.accumulate(light.y);
             sum.z = sum.z.accumulate(light.z);
@@ -146,33 +151,41 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
             normal = n;
         }
         let mut against = normal.dot(incoming);
-        if against > S::ZERO {
+        let turned = against > S::ZERO;
+        if turned {
             (normal, against) = (-normal, -against);
         }
         let reflects = needs::needs(NEEDS, needs::REFLECTION) && surface.reflect > S::ZERO;
         let shines = needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO;
         let refracts = needs::needs(NEEDS, needs::REFRACTION) && surface.refract > S::ZERO;
-        let mirror = if reflects || shines {
-            (incoming - normal * (against + against)).unit().0
-        } else {
-            Vec3::ZERO
-        };
+        let mut mirror = Vec3::ZERO;
+        if reflects || shines {
+            mirror = incoming - normal * (against + against);
+        }
+        if reflects {
+            mirror = mirror.unit().0;
+        }
+        let error = S::surface_error(contact.point.size(), contact.reach);
         let point = Point {
             contact,
             normal,
+            turned,
+            smooth: attributes.patch != Attributes::FLAT,
             mirror,
-            error: S::surface_error(contact.point.size(), contact.reach),
+            is_unit: reflects,
+            error,
+            offset: contact.outward * error,
         };
         let light = shade::local(
             scene,
             self.accelerator,
             surface,
-            &point,
+            point,
             workspace.stack,
             workspace.blockers,
             observer,
         );
-        let mut follow = |share: S, direction: Option<Vec3<S>>, kind| {
+        let mut follow = |share: S, direction: Option<Vec3<S>>, kind: RayKind| {
             if share == S::ZERO || from.depth >= self.max_depth {
                 return;
             }
@@ -182,7 +195,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
             }
             if let (Some(direction), Some(place)) = (direction, workspace.rays.get_mut(*waiting)) {
                 *place = Pending {
-                    ray: point.ray(direction),
+                    ray: point.ray::<NEEDS>(direction, kind == RayKind::Reflected),
                     weight,
                     depth: from.depth + 1,
                     kind,

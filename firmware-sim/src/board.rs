@@ -8,9 +8,7 @@ mod riscv;
 mod stack;
 mod tell;
 
-use crate::baked::{
-    CUT_OFF, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, NEEDS, RAYS, S, SCENE, TREE, Tree, WIDTH,
-};
+use crate::baked::{CUT_OFF, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, NEEDS, RAYS, S, SCENE, WIDTH};
 use core::convert::Infallible;
 use core::panic::PanicInfo;
 use embedded_graphics_core::Pixel;
@@ -50,12 +48,37 @@ fn run() -> ! {
     exit(if deepest.is_some() { 0 } else { 103 })
 }
 
+/// Renders the picture with the tree that was baked; its hash.
+#[cfg(not(octray_device_tree))]
+fn frame(counts: &mut Counts) -> u64 {
+    trace(&crate::baked::TREE, counts)
+}
+
+/// Builds the tree in its own memory and renders the picture; its hash. 0 if the tree has no room.
+#[cfg(octray_device_tree)]
+fn frame(counts: &mut Counts) -> u64 {
+    use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
+    use octray_core::{octree::Packed, ray::Bounds, shape::ObjectRef};
+
+    let mut words = [0; TREE_WORDS];
+    let mut links = [ObjectRef::default(); OBJECTS];
+    // A call of its own, so that its boxes are gone when the picture is rendered.
+    #[inline(never)]
+    fn build<'a>(words: &'a mut [u32], links: &'a mut [ObjectRef]) -> Option<Packed<'a>> {
+        let mut boxes = [Bounds::default(); OBJECTS];
+        Packed::build(&SCENE.shapes, SCENE.reach, words, links, &mut boxes, GROWTH)
+            .ok()
+            .map(|(tree, _)| tree)
+    }
+    build(&mut words, &mut links).map_or(0, |tree| trace(&tree, counts))
+}
+
 /// Renders the picture; its hash.
 #[inline(never)]
-fn frame(counts: &mut Counts) -> u64 {
+fn trace<A: Accelerator<S, NEEDS>>(tree: &A, counts: &mut Counts) -> u64 {
     let tracer = Tracer {
         scene: &SCENE,
-        accelerator: &TREE,
+        accelerator: tree,
         max_depth: MAX_DEPTH,
         cut_off: CUT_OFF,
     };
@@ -63,7 +86,7 @@ fn frame(counts: &mut Counts) -> u64 {
     let mut blockers = [None; LIGHTS];
     let mut workspace = Workspace {
         rays: &mut rays,
-        stack: &mut <Tree as Accelerator<S, NEEDS>>::Stack::default(),
+        stack: &mut A::Stack::default(),
         blockers: &mut blockers,
     };
     let mut strip = [[0; 3]; WIDTH as usize * ROWS];

@@ -5,10 +5,10 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::Arith;
 use crate::output;
+use clap::ValueEnum;
 use octray_core::octree;
-use octray_scenes::bake::{Options, bake};
+use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::quantise::View;
-use octray_scenes::tree::Growth;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -21,8 +21,8 @@ pub struct BakeJob {
     pub arith: Arith,
     /// Columns and rows; the scene's own if `None`.
     pub size: Option<(u32, u32)>,
-    /// Whether to bake a packed tree, or none.
-    pub packed: bool,
+    /// What finds the objects.
+    pub tree: TreeKind,
     /// The most bounces.
     pub max_depth: u32,
     /// The weight below which a ray is not traced, 0 to 1.
@@ -31,6 +31,18 @@ pub struct BakeJob {
     pub leaf_size: u32,
     /// The Rust source; standard output if `None`.
     pub output: Option<PathBuf>,
+}
+
+/// The trees of baked scenes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum TreeKind {
+    /// Up to eight tight boxes per node in few bytes, walked in integers.
+    #[default]
+    Packed,
+    /// The same, built by the device in its own memory.
+    Device,
+    /// None: every ray tries every object.
+    None,
 }
 
 /// The deepest tree that may be baked.
@@ -52,6 +64,10 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned();
+    let growth = octree::Options {
+        depth: TREE_DEPTH,
+        leaf_size: job.leaf_size,
+    };
     let options = Options {
         name: &name,
         view: View {
@@ -61,13 +77,11 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
             max_depth: job.max_depth,
         },
         cut_off: job.cut_off,
-        tree: job.packed.then_some(Growth {
-            options: octree::Options {
-                depth: TREE_DEPTH,
-                leaf_size: job.leaf_size,
-            },
-            arena: None,
-        }),
+        tree: match job.tree {
+            TreeKind::Packed => Tree::Packed(growth),
+            TreeKind::Device => Tree::Device(growth),
+            TreeKind::None => Tree::None,
+        },
     };
     let baked = bake(&scene, job.arith.name(), &options)
         .map_err(|error| Error::Failed(error.to_string()))?;

@@ -7,7 +7,9 @@ mod bake;
 mod check;
 mod diff;
 mod generate;
+mod measure;
 mod render;
+mod schedule;
 mod stability;
 mod value;
 
@@ -15,7 +17,9 @@ pub use bake::BakeArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use measure::MeasureArgs;
 pub use render::RenderArgs;
+pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
 
 use clap::{Parser, Subcommand};
@@ -42,6 +46,10 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Simulate how well a picture is shared among any number of processors
+    Schedule(ScheduleArgs),
+    /// Measure what pictures cost on small targets, in an emulator
+    Measure(MeasureArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
 }

@@ -22,7 +22,6 @@ pub enum Policy {
     /// The next idle one gets its share of what is left, down to one packet.
     Guided,
     /// The dearest packet that is left, by estimate, goes to the next idle one.
-    #[value(skip)]
     CostOrdered,
     /// Each has a block; an idle one takes half of what is left of the largest.
     WorkStealing,

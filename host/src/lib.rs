@@ -1,10 +1,11 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`stability`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
+//! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
@@ -13,6 +14,7 @@
 pub mod bake;
 pub mod check;
 pub mod cli;
+pub mod cost;
 pub mod deal;
 pub mod diff;
 pub mod engine;
@@ -22,15 +24,18 @@ pub mod generate;
 pub mod heat;
 pub mod interrupt;
 pub mod job;
+pub mod measure;
 pub mod metric;
 pub mod output;
 pub mod packets;
 pub mod picture;
 pub mod progress;
 pub mod render;
+pub mod simulate;
 pub mod stability;
 pub mod stats;
 pub mod summary;
+pub mod sweep;
 pub mod threads;
 pub mod trace;
 
@@ -73,6 +78,8 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Bake(args) => bake::run(&args.job()?, &interrupt),
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
+        Command::Measure(args) => measure::run(&args.job()?, &interrupt),
+        Command::Schedule(args) => sweep::run(&args.job(), &interrupt),
         Command::Stability(args) => stability::run(&args.job(), &interrupt),
     }
 }

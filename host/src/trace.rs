@@ -1,11 +1,12 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
-use crate::deal::Deal;
+use crate::cost::{CostMap, dearest_first};
+use crate::deal::{Deal, Policy};
 use crate::engine::{self, Engine};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::RenderJob;
-use crate::packets::Packets;
+use crate::packets::{Packets, Shape};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
@@ -15,7 +16,7 @@ use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_scenes::model::Scene;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::time::Instant;
 
 /// Trace what the job asks for.
@@ -34,7 +35,7 @@ pub fn trace(
     let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let (picture, counters, work) = render(&*engine, job, progress, interrupt)?;
+    let (picture, counters, work, saturations) = render(&*engine, job, progress, interrupt)?;
     let render = begin.elapsed();
     let built = engine.built();
     Ok(Traced {
@@ -51,7 +52,7 @@ pub fn trace(
         steps: counters.steps,
         tests: counters.tests,
         hits: counters.hits[RayKind::Primary as usize],
-        saturations: u64::from(scalar::saturations()),
+        saturations,
         octree: built.octree,
         build,
         render,
@@ -60,13 +61,13 @@ pub fn trace(
 }
 
 /// Deals the picture's packets to threads. Returns it with what they counted (counting costs less than
-/// the time of a frame varies) and how they worked.
+/// the time of a frame varies), how they worked, and the saturations.
 fn render(
     engine: &dyn Engine,
     job: &RenderJob,
     progress: &Progress,
     interrupt: &Interrupt,
-) -> Result<(Picture, Counters, Work), Error> {
+) -> Result<(Picture, Counters, Work, u64), Error> {
     let built = engine.built();
     let (width, height) = built.size;
     let mut picture = Picture::black(width, height, job.output.holds_intensities())
@@ -80,9 +81,16 @@ fn render(
     let packets = Packets::cut(&mut picture, &region, shape);
     let count = packets.len();
     let threads = job.work.threads.min(at_least_one(count));
+    // Those of the probe are not the picture's.
+    let before = scalar::saturations();
+    let order = match policy {
+        Policy::CostOrdered => order(engine, &region, shape, interrupt)?,
+        _ => Vec::new(),
+    };
+    let probed = scalar::saturations().wrapping_sub(before);
     progress.start(count);
     let finished = run_packets(
-        &Deal::new(policy, count, threads, Vec::new()),
+        &Deal::new(policy, count, threads, order),
         interrupt,
         |thread| {
             if job.work.pin {
@@ -109,7 +117,21 @@ fn render(
         packets: count,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
-    Ok((picture, counters, work))
+    let saturations = scalar::saturations().wrapping_sub(probed);
+    Ok((picture, counters, work, u64::from(saturations)))
+}
+
+/// The packets from the dearest to the cheapest, by what one pixel in 256 costs.
+fn order(
+    engine: &dyn Engine,
+    region: &Region,
+    shape: Shape,
+    interrupt: &Interrupt,
+) -> Result<Vec<u32>, Error> {
+    let cell = const { NonZeroU32::new(16).unwrap() };
+    let map = CostMap::probe(engine, cell, interrupt)?;
+    let costs: Vec<f64> = shape.cut(region).map(|packet| map.cost(&packet)).collect();
+    Ok(dearest_first(&costs))
 }
 
 fn at_least_one(count: usize) -> NonZeroUsize {

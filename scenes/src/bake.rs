@@ -10,9 +10,10 @@
 //! | --- | --- |
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
 //! | `NEEDS` | what the scene needs, for [`octray_core::needs`] |
-//! | `SCENE`, `TREE`, `FRAME` | the scene, its tree, its picture |
+//! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
 //! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
-//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `TREE_DEPTH` | what its memory has to be dimensioned for |
+//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
+//! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
 //! | `NAME`, `ARITH` | the scene and the format, to be told |
 
 mod format;
@@ -26,6 +27,7 @@ use crate::model::Scene;
 use crate::quantise::{Overflow, Prepared, View, quantise};
 use crate::tree::{Growth, PackedTree, every_object};
 use octray_core::needs::{self, Needs};
+use octray_core::octree;
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
 use octray_core::shape::Kind;
@@ -41,8 +43,20 @@ pub struct Options<'a> {
     pub view: View,
     /// Rays of less weight are not traced.
     pub cut_off: f64,
-    /// How the packed tree is built; none, only a list of all objects, if `None`.
-    pub tree: Option<Growth>,
+    /// What finds the objects.
+    pub tree: Tree,
+}
+
+/// What finds the objects of a baked scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tree {
+    /// A list of all objects.
+    None,
+    /// A packed tree, built beforehand.
+    Packed(octree::Options),
+    /// A packed tree that the device builds in its own memory; how much it takes is found out
+    /// beforehand.
+    Device(octree::Options),
 }
 
 /// A baked scene.
@@ -79,22 +93,32 @@ pub enum BakeError {
 /// If the scene does not fit the format or the tree.
 pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked, BakeError> {
     let mut prepared = quantise::<S>(scene, &options.view).map_err(BakeError::Overflow)?;
-    let (words, links, depth) = match &options.tree {
-        None => (None, every_object(&prepared.scene), 0),
-        Some(growth) => {
-            let (tree, summary) =
-                PackedTree::build(&mut prepared.scene, growth).map_err(|_| BakeError::TooMany)?;
-            (Some(tree.words), tree.links, summary.depth)
+    let grow = |scene: &mut _, options| {
+        let arena = None;
+        PackedTree::build(scene, &Growth { options, arena })
+            .map_err(|_| BakeError::TooMany)
+            .map(|(tree, _)| tree)
+    };
+    let every = every_object(&prepared.scene);
+    let (tree, links) = match options.tree {
+        Tree::None => (source::Tree::None, every),
+        Tree::Packed(options) => {
+            let tree = grow(&mut prepared.scene, options)?;
+            (source::Tree::Packed(tree.words, tree.tick), tree.links)
+        }
+        Tree::Device(growth) => {
+            // The device finds the objects in the order of the file.
+            let words = grow(&mut prepared.scene.clone(), growth)?.words.len();
+            (source::Tree::Device(words, growth), every)
         }
     };
     let needs = needs_of(&prepared, options.view.max_depth);
     let tables = source::Tables {
         prepared: &prepared,
-        words: words.as_deref(),
+        tree,
         links: &links,
         needs,
         rays: room(&used_surfaces(&prepared), needs, options),
-        tree_depth: depth,
         options,
     };
     Ok(Baked {

@@ -142,9 +142,13 @@ pub fn quantise<S: Quantize>(scene: &model::Scene, view: &View) -> Result<Prepar
         lights: scene
             .lights
             .iter()
-            .map(|light| Light {
-                position: vector(placement.point(light.position)),
-                colour: vector(light.colour),
+            .map(|light| {
+                let position = vector(placement.point(light.position));
+                Light {
+                    position,
+                    colour: vector(light.colour),
+                    clearance: S::surface_error(position.size(), S::ZERO),
+                }
             })
             .collect(),
         background: vector(scene.background),

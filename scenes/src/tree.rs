@@ -72,11 +72,13 @@ pub struct PackedTree {
     pub words: Vec<u32>,
     /// The objects, leaf by leaf.
     pub links: Vec<ObjectRef>,
+    /// A tick is 2 to this grid units.
+    pub tick: u32,
 }
 
 impl PackedTree {
     /// Builds the tree, and puts the scene's objects into the order of its leaves. The arena is
-    /// counted in nodes of eight children, 20 words each.
+    /// counted in nodes of eight children, 18 words each.
     ///
     /// # Errors
     /// If there are more objects than a packed tree can hold.
@@ -87,18 +89,19 @@ impl PackedTree {
         let count = scene.shapes().len();
         let mut links = vec![ObjectRef::default(); count];
         let mut boxes = vec![Bounds::default(); count];
-        let mut words = vec![0; 20 * growth.arena.unwrap_or(count + 1)];
+        let mut words = vec![0; 18 * growth.arena.unwrap_or(count + 1)];
         let (tree, summary) = Packed::build(
             &scene.shapes(),
+            scene.reach,
             &mut words,
             &mut links,
             &mut boxes,
             growth.options,
         )?;
-        let used = tree.words.len();
+        let (used, tick) = (tree.words.len(), tree.tick);
         words.truncate(used);
         scene.reorder(&mut links);
-        Ok((Self { words, links }, summary))
+        Ok((Self { words, links, tick }, summary))
     }
 
     /// The tree as the tracer sees it.
@@ -106,6 +109,7 @@ impl PackedTree {
         Packed {
             words: &self.words,
             links: &self.links,
+            tick: self.tick,
         }
     }
 }

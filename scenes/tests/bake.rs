@@ -1,6 +1,6 @@
 //! Baked scenes: what they are said to need, and the numbers that are written.
 
-use octray_scenes::bake::{BakeError, Baked, FORMATS, Options, bake};
+use octray_scenes::bake::{BakeError, Baked, FORMATS, Options, Tree, bake};
 use octray_scenes::quantise::View;
 
 const HEAD: &str = "v 0 0 9 resolution 8 8 l 5 5 9 1";
@@ -17,7 +17,7 @@ fn baked(text: &str, arith: &str, max_depth: u32) -> Result<Baked, BakeError> {
         name: "test",
         view,
         cut_off: 1.0 / 512.0,
-        tree: None,
+        tree: Tree::None,
     };
     bake(&scene, arith, &options)
 }

@@ -125,7 +125,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
                 return None;
             }
             let (x, y) = prepared.frame.place(column, row, 0, 0);
-            let ray = prepared.frame.camera().ray(x, y);
+            let ray = prepared.frame.camera().row(y).ray(x);
             tree.nearest(&scene, &ray, &mut stack, &mut ())
                 .map(|hit| scene.attributes_of(hit.object).id)
         })

@@ -172,6 +172,7 @@ fn threads_schedules_and_packets_change_nothing() {
             "static",
             "dynamic",
             "guided",
+            "cost-ordered",
             "work-stealing",
         ] {
             for packet in ["1", "2", "7", "9 --packet-columns 11"] {

@@ -73,6 +73,7 @@ struct Job {
     scene: &'static str,
     arith: &'static str,
     size: (u32, u32),
+    tree: &'static str,
 }
 
 /// One board is built for at a time: they share a folder.
@@ -87,6 +88,10 @@ fn root() -> &'static Path {
 
 /// Builds the firmware; any warning fails the test.
 fn build(board: Board, job: Job) -> PathBuf {
+    build_with(board, job, &[])
+}
+
+fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     let (width, height) = job.size;
     let output = Command::new(env!("CARGO"))
@@ -99,12 +104,13 @@ fn build(board: Board, job: Job) -> PathBuf {
             "firmware",
         ])
         .args(["--target", board.target])
+        .args(arguments)
         .env("CARGO_TARGET_DIR", &folder)
         .env("OCTRAY_SCENE", job.scene)
         .env("OCTRAY_ARITH", job.arith)
         .env("OCTRAY_SIZE", format!("{width}x{height}"))
         .env("OCTRAY_BOARD", board.machine)
-        .env_remove("OCTRAY_TREE")
+        .env("OCTRAY_TREE", job.tree)
         .env_remove("OCTRAY_MAX_DEPTH")
         .env_remove("OCTRAY_LEAF_SIZE")
         .env_remove("OCTRAY_COUNTS")
@@ -242,6 +248,7 @@ fn fixed_point_is_the_same_everywhere() {
         scene: "scenes/figure-22.scene",
         arith: "i16f16",
         size: SMALL,
+        tree: "packed",
     };
     same_everywhere(job, &hash_here::<Fixed<16, true>>(job));
 }
@@ -252,8 +259,57 @@ fn floats_are_the_same_everywhere() {
         scene: "scenes/glass.scene",
         arith: "f32",
         size: SMALL,
+        tree: "packed",
     };
     same_everywhere(job, &hash_here::<f32>(job));
+}
+
+/// The firmware's own routines for floats and the compiler's agree, where either are used.
+#[test]
+fn emulated_floats_are_the_compilers() {
+    let _alone = alone();
+    let job = Job {
+        scene: "scenes/glass.scene",
+        arith: "f32",
+        size: SMALL,
+        tree: "packed",
+    };
+    let expected = hash_here::<f32>(job);
+    for board in [MICROBIT, BOARDS[1], BOARDS[5]] {
+        if let Some(install) = board.missing() {
+            eprintln!("skipped {board:?}: {install}");
+            continue;
+        }
+        let told = emulate(board, &build_with(board, job, &["--no-default-features"]));
+        assert_eq!(value(&told, "hash"), expected, "{board:?}");
+        let own = build(board, job);
+        let bytes = fs::read(&own).unwrap();
+        let symbols = String::from_utf8_lossy(&bytes);
+        assert!(
+            !symbols.contains("compiler_builtins5float3add"),
+            "{board:?} adds by the compiler's routine"
+        );
+    }
+}
+
+#[test]
+fn a_tree_may_be_built_on_the_device_or_left_out() {
+    let _alone = alone();
+    if let Some(install) = MICROBIT.missing() {
+        eprintln!("skipped: {install}");
+        return;
+    }
+    let job = |tree| Job {
+        scene: "scenes/figure-22.scene",
+        arith: "i16f16",
+        size: SMALL,
+        tree,
+    };
+    let expected = hash_here::<Fixed<16, true>>(job("packed"));
+    for tree in ["device", "none"] {
+        let told = emulate(MICROBIT, &build(MICROBIT, job(tree)));
+        assert_eq!(value(&told, "hash"), expected, "{tree}");
+    }
 }
 
 /// Bytes of flash: everything that is loaded.
@@ -295,6 +351,7 @@ fn figure_22_fits_the_smallest_board() {
         scene: "scenes/figure-22.scene",
         arith: "auto",
         size: (160, 120),
+        tree: "auto",
     };
     let firmware = build(MICROBIT, job);
     let told = emulate(MICROBIT, &firmware);
@@ -315,6 +372,7 @@ fn what_a_scene_does_without_is_not_linked() {
         scene: "tests/scenes/spheres.scene",
         arith: "auto",
         size: (160, 120),
+        tree: "auto",
     };
     let flash = flash(&build(MICROBIT, job));
     assert!(flash <= 12 << 10, "{flash} bytes of flash");

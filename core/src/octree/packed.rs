@@ -1,35 +1,36 @@
-//! The tight tree in a quarter of the memory, walked in 32-bit integers whatever the arithmetic:
-//! for targets with little memory, no floating-point unit, or no wide multiplication.
+//! The tight tree in a fifth of the memory, walked in 16-bit integers whatever the arithmetic: for
+//! targets with little memory, no floating-point unit, or no wide multiplication.
 //!
 //! Coordinates are on the *grid*: [`Scalar::grid`] maps a scene's numbers to integers whose
-//! differences stay below 2³¹. Distances along a ray are in *ticks* of 2⁸ grid units.
+//! differences stay below 2³¹. Boxes and distances are in *ticks*, the power of two of grid units
+//! of which the scene's reach has 2¹³ to 2¹⁴: products of two such numbers fit 32 bits.
 //!
-//! A node is a run of words:
+//! A node is a run of words, bytes from the lowest:
 //!
 //! | words | what |
 //! | --- | --- |
-//! | 3 | its origin, the least corner of all its children's boxes, on the grid |
-//! | 1 | how many bits its steps along x, y and z are shifted by, and how many children it has |
-//! | 2 each | a child: six planes in steps from the origin (x, y, z low, then high), and a 16-bit word: the place of its first link, marked, or of its node in pairs of words |
+//! | 1 | its origin's x and y in ticks, 16 bits each: the least corner of all its children's boxes |
+//! | 1 | its origin's z, 16 bits; how many bits its steps along x, y and z are shifted by, 4 each; how many children it has |
+//! | 2 each | a child: three low planes in steps from the origin, and the low byte of its place; three high planes, and the high byte. The place is that of its first link, marked, or of its node in pairs of words |
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
+use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
 use super::search::Search;
 use super::{Accelerator, Hit};
 use crate::needs::Needs;
 use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
-use crate::scalar::{Scalar, multiply};
+use crate::scalar::{Scalar, leading_zeros, reciprocal_q15};
 use crate::scene::Scene;
 use crate::shape::{ObjectRef, Shapes};
 use crate::vec3::Axis;
 
-const HEADER: usize = 4;
+const HEADER: usize = 2;
 const CHILD: usize = 2;
-/// Marks a child's word as that of a leaf.
+/// Marks a child's place as that of a leaf.
 const LEAF: u32 = 1 << 15;
 
-/// Grid units in a tick.
-const TICK_BITS: u32 = 8;
+/// The scene's reach, and with it every difference of two coordinates, is below 2 to this, in ticks.
+const REACH_BITS: u32 = 14;
 /// How far rounding can bring a distance in ticks off; proved at [`Along`].
 const MARGIN: i32 = 4;
 
@@ -40,12 +41,15 @@ pub struct Packed<'a> {
     pub words: &'a [u32],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
+    /// A tick is 2 to this grid units.
+    pub tick: u32,
 }
 
-/// The nodes that wait while a packed tree is walked: child words, and the ticks at which they are
-/// entered. Depth beyond its room is cut off when the tree is built.
+/// The nodes and leaves that wait while a packed tree is walked: the ticks at which each is
+/// entered in the upper half, its place in the lower one, so that the nearer is the smaller.
+/// Depth beyond its room is cut off when the tree is built.
 #[derive(Clone, Copy, Debug)]
-pub struct PackedStack([(u16, i32); PACKED_STACK]);
+pub struct PackedStack([u32; PACKED_STACK]);
 
 /// Room of a [`PackedStack`].
 pub const PACKED_STACK: usize = 64;
@@ -54,19 +58,20 @@ const DEEPEST: u32 = (PACKED_STACK as u32 - 8) / 7;
 
 impl Default for PackedStack {
     fn default() -> Self {
-        Self([(0, 0); PACKED_STACK])
+        Self([0; PACKED_STACK])
     }
 }
 
 impl<'a> Packed<'a> {
-    /// Builds the tree of all shapes in lent words and links, with `boxes` as scratch memory, one
-    /// for each object. What finds no room stays unsplit.
+    /// Builds the tree of all shapes of a scene of this reach in lent words and links, with `boxes`
+    /// as scratch memory, one for each object. What finds no room stays unsplit.
     ///
     /// # Errors
-    /// If there is no room for one node of eight children, or for a link and a box for each
-    /// object, or if there are 2¹⁵ objects or more: a child's word has no place for them.
+    /// If there is no room for one node, or for a link and a box for each object, or if there are
+    /// 2¹⁵ objects or more: a child's word has no place for them.
     pub fn build<S: Scalar, const NEEDS: Needs>(
         shapes: &Shapes<'_, S, NEEDS>,
+        reach: S,
         words: &'a mut [u32],
         links: &'a mut [ObjectRef],
         boxes: &mut [Bounds<i32>],
@@ -77,7 +82,7 @@ impl<'a> Packed<'a> {
             nodes: 1,
             links: count,
         };
-        if words.len() < HEADER + WIDTH * CHILD || count >= LEAF as usize {
+        if count >= LEAF as usize {
             return Err(too_small);
         }
         let links = links.get_mut(..count).ok_or(too_small)?;
@@ -99,20 +104,28 @@ impl<'a> Packed<'a> {
             links,
             boxes,
             used: 0,
+            tick: tick_of(reach.grid()),
             leaf_size: options.leaf_size.max(1) as usize,
         };
         if count > 0 {
+            builder.node(0, count).ok_or(too_small)?;
             builder.grow(options.depth.clamp(1, DEEPEST.min(MAX_DEPTH)), &mut summary);
         }
-        let used = builder.used;
+        let (used, tick) = (builder.used, builder.tick);
         Ok((
             Self {
                 words: words.get(..used).unwrap_or_default(),
                 links,
+                tick,
             },
             summary,
         ))
     }
+}
+
+/// The least shift that brings a reach, and what rounding adds to it, below 2^`REACH_BITS`.
+fn tick_of(reach: i32) -> u32 {
+    (i32::BITS - reach.saturating_add(reach >> 8).leading_zeros()).saturating_sub(REACH_BITS)
 }
 
 struct Builder<'b> {
@@ -120,14 +133,14 @@ struct Builder<'b> {
     links: &'b mut [ObjectRef],
     boxes: &'b mut [Bounds<i32>],
     used: usize,
+    tick: u32,
     leaf_size: usize,
 }
 
 impl Builder<'_> {
-    /// Splits breadth first. Until it is its turn, a child's two words hold its range of objects,
+    /// Splits what is below the root breadth first. Until it is its turn, a child's two words hold its range of objects,
     /// so that no other memory is needed.
     fn grow(&mut self, deepest: u32, summary: &mut Summary) {
-        self.node(0, self.links.len());
         let (mut at, mut depth, mut level_end) = (0, 1, self.used);
         while let Some(header) = Header::read(self.words, at) {
             if at >= level_end {
@@ -158,7 +171,7 @@ impl Builder<'_> {
                     LEAF | start as u32
                 });
                 let group = build::Group::of(start, end, self.boxes);
-                let child = header.child(&group.bounds, word);
+                let child = header.child(&ticks_of(&group.bounds, self.tick), word);
                 if let Some(place) = self.words.get_mut(slot..).and_then(|w| w.first_chunk_mut()) {
                     *place = child;
                 }
@@ -173,19 +186,20 @@ impl Builder<'_> {
     /// Writes a node over a range of objects, its children waiting. Returns its word.
     fn node(&mut self, start: usize, end: usize) -> Option<u32> {
         let at = self.used;
-        let room = self.words.len().checked_sub(at)?;
-        if room < HEADER + WIDTH * CHILD || at / CHILD >= LEAF as usize {
+        if at / CHILD >= LEAF as usize {
             return None;
         }
         let (groups, count) = build::split(start, end, self.links, self.boxes, self.leaf_size);
         let groups = groups.get(..count)?;
+        let node = self.words.get_mut(at..at + HEADER + count * CHILD)?;
         let all = groups
             .iter()
             .fold(build::nothing(), |a, g| build::union(a, g.bounds));
-        let header = Header::around(&all, count);
+        let header = Header::around(&ticks_of(&all, self.tick), count);
         let ranges = groups.iter().flat_map(|g| [g.start as u32, g.end as u32]);
-        for (place, word) in
-            (self.words.get_mut(at..)?.iter_mut()).zip(header.words().into_iter().chain(ranges))
+        for (place, word) in node
+            .iter_mut()
+            .zip(header.words().into_iter().chain(ranges))
         {
             *place = word;
         }
@@ -194,7 +208,16 @@ impl Builder<'_> {
     }
 }
 
-/// A node without its children.
+/// A box on the grid in ticks, rounded outward.
+fn ticks_of(bounds: &Bounds<i32>, tick: u32) -> Bounds<i32> {
+    let up = |x: i32| ((i64::from(x) + (1 << tick) - 1) >> tick) as i32;
+    Bounds {
+        low: bounds.low.map(|x| x >> tick),
+        high: bounds.high.map(up),
+    }
+}
+
+/// A node without its children, in ticks.
 #[derive(Clone, Copy)]
 struct Header {
     origin: [i32; 3],
@@ -209,207 +232,189 @@ impl Header {
             origin: Axis::ALL.map(|a| bounds.low[a]),
             shift: Axis::ALL.map(|a| {
                 let extent = bounds.high[a].wrapping_sub(bounds.low[a]) as u32;
-                (0..24)
+                (0..15)
                     .find(|s| extent.div_ceil(1 << s) <= 255)
-                    .unwrap_or(24)
+                    .unwrap_or(15)
             }),
             count,
         }
     }
 
     fn words(&self) -> [u32; HEADER] {
-        let [x, y, z] = self.origin;
+        let [x, y, z] = self.origin.map(|c| c as u32 & 0xffff);
         let [sx, sy, sz] = self.shift;
         [
-            x as u32,
-            y as u32,
-            z as u32,
-            sx | sy << 8 | sz << 16 | (self.count as u32) << 24,
+            x | y << 16,
+            z | (sx | sy << 4 | sz << 8 | (self.count as u32) << 12) << 16,
         ]
     }
 
     #[inline(always)]
     fn read(words: &[u32], at: usize) -> Option<Self> {
-        let &[x, y, z, rest] = words.get(at..)?.first_chunk()?;
+        let &[first, second] = words.get(at..)?.first_chunk()?;
         Some(Self {
-            origin: [x as i32, y as i32, z as i32],
-            shift: [rest & 31, rest >> 8 & 31, rest >> 16 & 31],
-            count: (rest >> 24) as usize,
+            origin: [
+                i32::from(first as i16),
+                first as i32 >> 16,
+                i32::from(second as i16),
+            ],
+            shift: [second >> 16 & 15, second >> 20 & 15, second >> 24 & 15],
+            count: (second >> 28) as usize,
         })
     }
 
     /// A child's two words; its box is rounded outward.
     fn child(&self, bounds: &Bounds<i32>, word: u32) -> [u32; CHILD] {
-        let mut planes = [0u8; 6];
+        let (mut low, mut high) = ([0u8; 4], [0u8; 4]);
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
             let steps = |x: i32| x.wrapping_sub(self.origin[i]) as u32;
-            planes[i] = (steps(bounds.low[axis]) >> self.shift[i]).min(255) as u8;
-            planes[i + 3] = steps(bounds.high[axis])
+            low[i] = (steps(bounds.low[axis]) >> self.shift[i]).min(255) as u8;
+            high[i] = steps(bounds.high[axis])
                 .div_ceil(1 << self.shift[i])
                 .min(255) as u8;
         }
-        let [a, b, c, d, e, f] = planes;
-        let [g, h] = (word as u16).to_le_bytes();
-        [
-            u32::from_le_bytes([a, b, c, d]),
-            u32::from_le_bytes([e, f, g, h]),
-        ]
+        [low[3], high[3]] = (word as u16).to_le_bytes();
+        [u32::from_le_bytes(low), u32::from_le_bytes(high)]
     }
 }
 
-/// A ray along one axis.
+/// A ray along one axis. The distance of a plane is (plane − origin) · slope / 2^shift, with 8
+/// bits behind the point: the reciprocal 1/|d| ≤ 2⁷ has 16 bits, so that no product exceeds 2³⁰.
 ///
-/// Beyond a slope of 2⁻⁷ the distance of a plane is a product with the reciprocal 1/|d| ≤ 2⁷. A
-/// flatter ray is not asked when it crosses planes of this axis, only whether a box holds one of
-/// the coordinates it can take within its reach: a reciprocal would not fit, and a product with
-/// it would lose all digits. Errors of the first kind, in ticks: one each for rounding the
-/// origin's distance and the step's product, for the reciprocal (relative, the same in both
-/// products, so less than 2⁻²⁷ of at most 2²³) and for the direction (2⁻³⁰ of at least 2⁻⁷, over
-/// 2²³ ticks). `MARGIN` is their sum.
+/// Distances that matter are below 2¹⁴ ticks. They are off, in ticks, by half a tick of the
+/// origin times 1/|d|; by 2 for the reciprocal (relative 2⁻¹³, the same in both products); by 1 for the
+/// step's product, 255 · 2⁻⁸; by 1 for the product of the node's origin, the direction's own
+/// rounding (2⁻²⁹ over at least 2⁻⁷) and the limit's. `loose` is their sum.
+///
+/// A ray flatter than 2⁻⁷ drifts by less than reach/2⁷ along the axis. It is taken for one of 2⁻⁷
+/// that is loose by twice the reach: where it can touch a box within its drift, (low − origin) 2⁷
+/// ≤ reach and (high − origin) 2⁷ ≥ −reach, so the box is entered before 0 and left after reach.
 #[derive(Clone, Copy)]
 struct Along {
+    /// In ticks, to nearest.
     origin: i32,
-    /// 1/|d| with 24 bits behind the point; 0 for a flat ray.
-    inverse_q24: u32,
-    negative: bool,
-    /// How far a flat ray can go along this axis.
-    drift: i32,
+    /// With the direction's sign.
+    slope: i32,
+    shift: u32,
+    loose_q8: i32,
 }
 
-/// The steepest slope, with 30 bits behind the point, that counts as flat.
+/// The least slope, with 30 bits behind the point, that is not flat.
 const FLAT_Q30: u32 = 1 << 23;
 
 impl Along {
     #[inline(always)]
-    fn new<S: Scalar>(origin: S, direction: S, reach: i32) -> Self {
+    fn new<S: Scalar>(origin: S, direction: S, tick: u32) -> Self {
         let slope_q30 = direction.slope_q30();
         let size = slope_q30.unsigned_abs();
-        let inverse_q24 = if size <= FLAT_Q30 {
-            0
-        } else {
-            // size · 2^zeros / 2³² is in [½, 1), its reciprocal y in (1, 2]; 1/|d| = y 2^(zeros − 2).
-            let zeros = size.leading_zeros();
-            let y_q30 = crate::scalar::reciprocal_q30(size << zeros);
-            y_q30 >> 8u32.saturating_sub(zeros)
-        };
+        let flat = size < FLAT_Q30;
+        let size = if flat { FLAT_Q30 } else { size };
+        // size · 2^zeros / 2³² is in [½, 1), its reciprocal y in (1, 2]; 1/|d| = y 2^(zeros − 2).
+        let zeros = leading_zeros(size);
+        let inverse = reciprocal_q15(size << zeros >> 16) as i32;
+        let shift = 9u32.wrapping_sub(zeros) & 15;
         Self {
-            origin: origin.grid(),
-            inverse_q24,
-            negative: slope_q30 < 0,
-            drift: (reach >> 7).saturating_add(MARGIN << TICK_BITS),
+            origin: origin.grid().saturating_add(1 << tick >> 1) >> tick,
+            slope: if slope_q30 < 0 { -inverse } else { inverse },
+            shift,
+            loose_q8: (MARGIN << 8)
+                + if flat {
+                    2 << (REACH_BITS + 8)
+                } else {
+                    inverse >> (shift + 1)
+                },
         }
     }
 
     /// Against the planes of one node.
     #[inline(always)]
     fn at(&self, header: &Header, axis: usize) -> Slab {
-        let shift = header.shift[axis];
         let apart = header.origin[axis].wrapping_sub(self.origin);
-        if self.inverse_q24 == 0 {
-            // In steps of the node, rounded outward.
-            let low = (-(apart as i64) - i64::from(self.drift)) >> shift;
-            let high = (-(apart as i64) + i64::from(self.drift)) >> shift;
-            return Slab {
-                near: low.clamp(-1, 256) as i32,
-                far: high.clamp(-1, 256) as i32,
-                step_q16: 0,
-                shift: 0,
-                negative: false,
-            };
-        }
-        // The inverse is below 2³¹.
-        let product = multiply::signed(apart, self.inverse_q24 as i32);
-        let product = if self.negative { -product } else { product };
-        let ticks = (product >> (24 + TICK_BITS)) as i32;
+        let base = apart.wrapping_mul(self.slope) >> self.shift;
         Slab {
-            near: ticks.wrapping_sub(MARGIN),
-            far: ticks.wrapping_add(MARGIN),
-            step_q16: self.inverse_q24 >> 8,
-            shift: 24u32.saturating_sub(shift),
-            negative: self.negative,
+            near_q8: base.wrapping_sub(self.loose_q8),
+            far_q8: base.wrapping_add(self.loose_q8),
+            step_q8: self.slope << header.shift[axis] >> self.shift,
         }
     }
 }
 
 /// The planes of one node along one axis, as a ray comes to them: the ticks of the node's origin
-/// and per step, or for a flat ray (`step_q16` = 0) the steps that it can touch.
+/// and per step.
 #[derive(Clone, Copy)]
 struct Slab {
-    near: i32,
-    far: i32,
-    step_q16: u32,
-    shift: u32,
-    negative: bool,
+    near_q8: i32,
+    far_q8: i32,
+    step_q8: i32,
 }
 
 impl Slab {
-    /// Narrows the ray to what lies between two planes of a child. False if nothing is left.
+    /// Narrows the ray to what lies between two planes of a child, the one it comes to first and
+    /// the other. False if nothing is left.
     #[inline(always)]
-    fn clip(&self, low: u32, high: u32, enter: &mut i32, exit: &mut i32) -> bool {
-        if self.step_q16 == 0 {
-            return high as i32 >= self.near && low as i32 <= self.far;
-        }
-        let below = |steps: u32| ((steps * self.step_q16) >> self.shift) as i32;
-        let above = |steps: u32| ((steps * (self.step_q16 + 1)) >> self.shift) as i32 + 1;
-        let (near, far) = if self.negative {
-            (
-                self.near.wrapping_sub(above(high)),
-                self.far.wrapping_sub(below(low)),
-            )
-        } else {
-            (
-                self.near.wrapping_add(below(low)),
-                self.far.wrapping_add(above(high)),
-            )
-        };
+    fn clip(&self, first: u32, second: u32, enter: &mut i32, exit: &mut i32) -> bool {
+        let near = (first as i32)
+            .wrapping_mul(self.step_q8)
+            .wrapping_add(self.near_q8);
+        let far = (second as i32)
+            .wrapping_mul(self.step_q8)
+            .wrapping_add(self.far_q8);
         *enter = near.max(*enter);
         *exit = far.min(*exit);
         *enter <= *exit
     }
 }
 
-/// A distance on the grid in ticks, rounded up and with the margin.
-#[inline(always)]
-fn ticks(grid: i32) -> i32 {
-    (grid >> TICK_BITS) + 1 + MARGIN
-}
-
 impl Packed<'_> {
+    /// How far objects are looked for, in ticks, rounded up.
+    #[inline(always)]
+    fn ticks(&self, limit: i32) -> i32 {
+        (limit >> self.tick) + 1
+    }
+
     #[inline(always)]
     fn walk<S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs>(
         &self,
         search: &mut Search<'_, S, O, ANY, NEEDS>,
         stack: &mut PackedStack,
     ) {
-        let reach = search.limit.grid();
         let (o, d) = (search.ray.origin, search.ray.direction);
         let along = [
-            Along::new(o.x, d.x, reach),
-            Along::new(o.y, d.y, reach),
-            Along::new(o.z, d.z, reach),
+            Along::new(o.x, d.x, self.tick),
+            Along::new(o.y, d.y, self.tick),
+            Along::new(o.z, d.z, self.tick),
         ];
-        let mut limit = ticks(reach);
+        // The bytes of the planes that a ray going down an axis comes to in the other order.
+        let swapped = (u32::from(along[0].slope < 0) * 0xff)
+            | (u32::from(along[1].slope < 0) * 0xff00)
+            | (u32::from(along[2].slope < 0) * 0xff_0000);
+        let mut limit = self.ticks(search.limit.grid());
         let mut at = 0;
         let mut waiting = 0usize;
         while let Some(header) = Header::read(self.words, at) {
             search.observer.step();
-            let slabs = [0, 1, 2].map(|i| along[i].at(&header, i));
+            let [x, y, z] = [0, 1, 2].map(|i| along[i].at(&header, i));
             let base = waiting;
-            let children = self.words.get(at + HEADER..).unwrap_or_default();
-            for &[first, second] in children.as_chunks::<CHILD>().0.iter().take(header.count) {
-                let (mut enter, mut exit) = (0, limit);
-                let met = slabs[0].clip(first & 255, first >> 24, &mut enter, &mut exit)
-                    && slabs[1].clip(first >> 8 & 255, second & 255, &mut enter, &mut exit)
-                    && slabs[2].clip(first >> 16 & 255, second >> 8 & 255, &mut enter, &mut exit);
+            let first = at + HEADER;
+            let children = self.words.get(first..first + header.count * CHILD);
+            for &[low, high] in children.unwrap_or_default().as_chunks::<CHILD>().0 {
+                let (mut enter, mut exit) = (0, limit << 8);
+                let swap = (low ^ high) & swapped;
+                let (near, far) = (low ^ swap, high ^ swap);
+                let met = x.clip(near & 255, far & 255, &mut enter, &mut exit)
+                    && y.clip(near >> 8 & 255, far >> 8 & 255, &mut enter, &mut exit)
+                    && z.clip(near >> 16 & 255, far >> 16 & 255, &mut enter, &mut exit);
                 if !met || waiting >= PACKED_STACK {
                     continue;
                 }
-                let mut place = waiting;
-                while !ANY && place > base && stack.0[place - 1].1 < enter {
-                    stack.0[place] = stack.0[place - 1];
-                    place -= 1;
+                let place = low >> 24 | high >> 24 << 8;
+                let key = (enter as u32) >> 8 << 16 | place;
+                let mut slot = waiting;
+                while !ANY && slot > base && stack.0[slot - 1] < key {
+                    stack.0[slot] = stack.0[slot - 1];
+                    slot -= 1;
                 }
-                stack.0[place] = ((second >> 16) as u16, enter);
+                stack.0[slot] = key;
                 waiting += 1;
             }
             at = loop {
@@ -417,21 +422,21 @@ impl Packed<'_> {
                     return;
                 }
                 waiting -= 1;
-                let Some(&(word, enter)) = stack.0.get(waiting) else {
+                let Some(&key) = stack.0.get(waiting) else {
                     return;
                 };
-                if !ANY && enter > limit {
+                if !ANY && (key >> 16) as i32 > limit {
                     continue;
                 }
-                let word = u32::from(word);
-                if word & LEAF == 0 {
-                    break word as usize * CHILD;
+                let place = key & 0xffff;
+                if place & LEAF == 0 {
+                    break place as usize * CHILD;
                 }
-                let start = (word & !LEAF) as usize;
+                let start = (place & !LEAF) as usize;
                 if search.list(self.links.get(start..).unwrap_or_default()) {
                     return;
                 }
-                limit = ticks(search.limit.grid());
+                limit = self.ticks(search.limit.grid());
             };
         }
     }

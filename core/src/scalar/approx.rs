@@ -197,6 +197,8 @@ impl<const N: u32> Scalar for Approx<N> {
 
     const GRID_SLACK: i32 = f32::GRID_SLACK;
 
+    const SOUND: bool = N >= 2;
+
     #[inline(always)]
     fn slope_q30(self) -> i32 {
         self.0.slope_q30()
@@ -224,7 +226,6 @@ impl<const N: u32> Quantize for Approx<N> {
     const NAME: &'static str = ["approx0", "approx1", "approx2"][N as usize];
     const FRACTION_BITS: Option<u32> = None;
     const SLACK: f64 = [1.0 / 8.0, 1.0 / 128.0, 1.0 / 16_384.0][N as usize];
-    const SOUND: bool = N >= 2;
 
     fn from_f64(x: f64) -> Self {
         Self(x as f32)

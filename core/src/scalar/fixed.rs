@@ -8,11 +8,12 @@ mod wide;
 
 pub use wide::Fixed64;
 
+use super::zeros::{leading_zeros, leading_zeros_64};
 use super::{Exponent, Quantize, Scalar, multiply};
 use crate::octree::Slope;
 use core::ops::{Add, Mul, Neg, Sub};
-pub(crate) use root::reciprocal_q30;
-use root::rsqrt_q30;
+pub(crate) use root::reciprocal_q15;
+use root::{reciprocal_q30, rsqrt_q30};
 
 /// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28.
 ///
@@ -128,7 +129,7 @@ impl Reciprocal {
                 shift: 0,
             };
         }
-        let zeros = size.leading_zeros();
+        let zeros = leading_zeros(size);
         let mantissa = reciprocal_q30(size << zeros) as i32;
         Self {
             mantissa: if raw < 0 { -mantissa } else { mantissa },
@@ -218,7 +219,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         if wide.0 <= 0 {
             return Self(0);
         }
-        let zeros = wide.0.leading_zeros() & !1;
+        let zeros = leading_zeros_64(wide.0 as u64) & !1;
         let x_q32 = ((wide.0 << zeros) as u64 >> 32) as u32;
         let root_q32 = (multiply::unsigned(x_q32, rsqrt_q30(x_q32)) + (1 << 29)) >> 30;
         Self(saturate((root_q32 >> (zeros / 2)) as i64))
@@ -268,13 +269,13 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
             return (v, Self(0));
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
-        let up = size.leading_zeros().saturating_sub(1);
+        let up = leading_zeros(size).saturating_sub(1);
         let square_of = |c: i32| multiply::signed(c, c) as u64;
         let [x, y, z] = v.map(|c| c.0 << up);
         let square = square_of(x)
             .wrapping_add(square_of(y))
             .wrapping_add(square_of(z));
-        let zeros = square.leading_zeros() & !1;
+        let zeros = leading_zeros_64(square) & !1;
         let x_q32 = ((square << (zeros & 63)) >> 32) as u32;
         let inverse_q30 = rsqrt_q30(x_q32);
         let shift = 62 - F - zeros / 2;
@@ -336,6 +337,8 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
 
     const GRID_SLACK: i32 = 4;
 
+    const SOUND: bool = F >= 16;
+
     #[inline(always)]
     fn slope_q30(self) -> i32 {
         self.0 << (30 - F)
@@ -373,7 +376,6 @@ impl<const F: u32, const CHECKED: bool> Quantize for Fixed<F, CHECKED> {
     const FRACTION_BITS: Option<u32> = Some(F);
     // A direction is rounded to F bits: over the scene's diagonal that is this share of it.
     const SLACK: f64 = 4.0 / (1u64 << F) as f64;
-    const SOUND: bool = F >= 16;
 
     fn from_f64(x: f64) -> Self {
         // `as` saturates and makes NaN 0; the most negative value has no opposite.

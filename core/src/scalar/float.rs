@@ -1,12 +1,13 @@
 //! `f32` and `f64`: hardware or software floating point, with libm for the roots
 //! but where an instruction takes them ([`root`]).
 
+use super::whole::whole;
 use super::{Exponent, Quantize, Scalar, root};
 use crate::octree::Slope;
 
 /// One definition of every operation for both widths.
 macro_rules! float {
-    ($t:ident, $sqrt:path, $power:path, position: $p:expr, reach: $r:expr) => {
+    ($t:ident, $sqrt:path, $power:path, whole: $whole:ident, position: $p:expr, reach: $r:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -106,7 +107,8 @@ macro_rules! float {
 
             #[inline(always)]
             fn level(self) -> u8 {
-                (self.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+                // The cast saturates.
+                (self * 255.0 + 0.5) as u8
             }
 
             #[inline(always)]
@@ -118,14 +120,16 @@ macro_rules! float {
             // a unit in `f32`, 2⁷ on the grid; points are off by a few.
             #[inline(always)]
             fn grid(self) -> i32 {
-                (self * (1 << 29) as Self) as i32
+                $whole::<29>(self)
             }
 
             const GRID_SLACK: i32 = 1 << 10;
 
+            const SOUND: bool = true;
+
             #[inline(always)]
             fn slope_q30(self) -> i32 {
-                (self * (1 << 30) as Self) as i32
+                $whole::<30>(self)
             }
 
             type Plane = Self;
@@ -148,14 +152,13 @@ macro_rules! float {
     };
 }
 
-float!(f32, root::sqrt_f32, power_f32, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
-float!(f64, libm::sqrt, power_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
+float!(f32, root::sqrt_f32, power_f32, whole: whole, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
+float!(f64, libm::sqrt, power_f64, whole: whole_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
 
 impl Quantize for f32 {
     const NAME: &'static str = "f32";
     const FRACTION_BITS: Option<u32> = None;
     const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
-    const SOUND: bool = true;
 
     fn from_f64(x: f64) -> Self {
         x as f32
@@ -170,7 +173,6 @@ impl Quantize for f64 {
     const NAME: &'static str = "f64";
     const FRACTION_BITS: Option<u32> = None;
     const SLACK: f64 = 1.0 / (1u64 << 48) as f64;
-    const SOUND: bool = true;
 
     fn from_f64(x: f64) -> Self {
         x
@@ -182,6 +184,11 @@ impl Quantize for f64 {
 }
 
 #[inline(always)]
+fn whole_f64<const BITS: u32>(x: f64) -> i32 {
+    (x * (1u64 << BITS) as f64) as i32
+}
+
+#[inline(always)]
 fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {
     libm::pow(x.min(1.0), f64::from(exponent.whole) + exponent.fraction)
 }
@@ -190,7 +197,7 @@ fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {
 #[inline(always)]
 pub(super) fn power_f32(x: f32, exponent: Exponent<f32>) -> f32 {
     // A dot product of unit vectors can exceed 1 by rounding.
-    let x = x.min(1.0);
+    let x = if x > 1.0 { 1.0 } else { x };
     let (mut result, mut square, mut rest) = (1.0, x, exponent.whole);
     while rest != 0 {
         if rest & 1 != 0 {

@@ -58,7 +58,8 @@ impl<S: Scalar> Cuboid<S> {
         } else {
             crossing.exit.0
         };
-        (t > S::ZERO && t <= limit && self.bounds(slack).contains(ray.at(t))).then_some(t)
+        let in_box = || S::SOUND || self.bounds(slack).contains(ray.at(t));
+        (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
     /// The box that all hits lie in.

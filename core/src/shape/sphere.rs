@@ -28,6 +28,11 @@ impl<S: Scalar> Sphere<S> {
         if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }
+        // Behind a ray that starts outside: shadow rays leave most spheres that way, without a root.
+        if middle < S::ZERO && to_centre.dot_wide(to_centre) > S::product(self.radius, self.radius)
+        {
+            return None;
+        }
         let half_chord = S::sqrt_wide(discriminant);
         let near = middle - half_chord;
         let t = if near > S::ZERO {
@@ -36,7 +41,8 @@ impl<S: Scalar> Sphere<S> {
             middle + half_chord
         };
         let reach = self.radius + slack;
-        (t > S::ZERO && t <= limit && (ray.at(t) - self.centre).size() <= reach).then_some(t)
+        let in_box = || S::SOUND || (ray.at(t) - self.centre).size() <= reach;
+        (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
     /// The box that all hits lie in.

@@ -1,104 +1,56 @@
 //! A plugin of QEMU's translator (its plugin interface, version 1) that counts the instructions a
-//! guest executes between the functions `octray_resume` and `octray_pause`, by class and by
+//! guest executes between the functions `octray_resume` and `octray_pause`, by kind and by
 //! function. Counting is exact, and the same in every run.
 //!
 //! ```text
-//! qemu-system-arm … -plugin liboctray_count.so,out=FILE
+//! qemu-system-arm … -plugin liboctray_count.so,out=FILE,watch=nearest:kernel_*
 //! ```
 //!
-//! At the guest's end FILE holds a line `instructions N`, a line `class NAME N` for each class,
-//! and a line `function NAME N` for each function, the costliest first.
+//! At the guest's end FILE holds
+//!
+//! | line | what |
+//! | --- | --- |
+//! | `instructions N` | all of them |
+//! | `class NAME N`, `kind NAME N` | those of each [`Class`], and of each [`Kind`] |
+//! | `taken N`, `moved N` | conditional branches that were taken; registers that loads and stores of several moved |
+//! | `calls N M NAME` | calls of a watched function, and the instructions from their entries to their returns |
+//! | `function N NAME` | instructions in each function's own code, the costliest first |
 
-mod class;
+mod kind;
+mod path;
 mod qemu;
+mod tally;
 
-pub use class::Class;
+pub use kind::{Class, Kind, moved};
 
-use std::collections::BTreeMap;
+use path::{Block, Path};
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
-use std::fmt::Write;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 use std::{fs, ptr, slice};
+use tally::{Tally, What};
 
 /// The version of the interface that this plugin speaks, for QEMU.
 #[unsafe(no_mangle)]
 pub static qemu_plugin_version: c_int = 1;
 
-/// Executions of all instructions of one class in one function.
-struct Counter {
-    /// Grows while the guest runs; QEMU adds to it.
-    now: *mut u64,
-    /// Its value when counting was last resumed.
-    start: u64,
-    /// What counts.
-    sum: u64,
-}
-
-// SAFETY: the pointer is to memory that is never freed; boards have one core, so that nobody adds
-// while it is read.
-unsafe impl Send for Counter {}
-
 struct State {
     out: String,
-    running: bool,
-    counters: BTreeMap<(String, Class), Counter>,
+    watch: Vec<String>,
+    tally: Tally,
+    path: Path,
 }
 
 static STATE: Mutex<State> = Mutex::new(State {
     out: String::new(),
-    running: false,
-    counters: BTreeMap::new(),
+    watch: Vec::new(),
+    tally: Tally::new(),
+    path: Path::new(),
 });
 
 fn with_state<T>(f: impl FnOnce(&mut State) -> T) -> T {
     let mut state = STATE.lock().unwrap_or_else(PoisonError::into_inner);
     f(&mut state)
-}
-
-impl State {
-    /// The counter of a class in a function.
-    fn counter(&mut self, function: &str, class: Class) -> *mut u64 {
-        let key = (function.to_owned(), class);
-        let new = || Counter {
-            now: Box::leak(Box::new(0)),
-            start: 0,
-            sum: 0,
-        };
-        self.counters.entry(key).or_insert_with(new).now
-    }
-
-    fn run(&mut self, running: bool) {
-        for counter in self.counters.values_mut() {
-            // SAFETY: see `Counter`.
-            let now = unsafe { ptr::read_volatile(counter.now) };
-            if self.running {
-                counter.sum += now - counter.start;
-            }
-            counter.start = now;
-        }
-        self.running = running;
-    }
-
-    fn report(&self) -> String {
-        let mut classes: BTreeMap<Class, u64> = BTreeMap::new();
-        let mut functions: BTreeMap<&str, u64> = BTreeMap::new();
-        for ((function, class), counter) in &self.counters {
-            *classes.entry(*class).or_default() += counter.sum;
-            *functions.entry(function).or_default() += counter.sum;
-        }
-        let mut functions: Vec<_> = functions.into_iter().filter(|(_, n)| *n > 0).collect();
-        functions.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
-        let all: u64 = classes.values().sum();
-        let mut text = format!("instructions {all}\n");
-        // Writing to a string cannot fail.
-        for (class, n) in classes {
-            let _ = writeln!(text, "class {} {n}", class.name());
-        }
-        for (name, n) in functions {
-            let _ = writeln!(text, "function {name} {n}");
-        }
-        text
-    }
 }
 
 /// Called by QEMU when it loads the plugin.
@@ -112,13 +64,20 @@ pub unsafe extern "C" fn qemu_plugin_install(
     argc: c_int,
     argv: *const *const c_char,
 ) -> c_int {
-    // SAFETY: by this function's contract.
-    let arguments = unsafe { slice::from_raw_parts(argv, argc.max(0) as usize) };
+    let arguments = match argc {
+        1.. if !argv.is_null() => {
+            // SAFETY: by this function's contract.
+            unsafe { slice::from_raw_parts(argv, argc as usize) }
+        }
+        _ => &[],
+    };
     for &argument in arguments {
         // SAFETY: the same.
         let text = unsafe { CStr::from_ptr(argument) }.to_string_lossy();
         if let Some(path) = text.strip_prefix("out=") {
             with_state(|state| state.out = path.to_owned());
+        } else if let Some(names) = text.strip_prefix("watch=") {
+            with_state(|state| state.watch = names.split(':').map(Into::into).collect());
         }
     }
     if with_state(|state| state.out.is_empty()) {
@@ -135,28 +94,64 @@ pub unsafe extern "C" fn qemu_plugin_install(
 
 /// A block of the guest has been translated: each of its instructions gets its counter.
 extern "C" fn translated(_: u64, block: *mut qemu::Block) {
+    let mut seen = Block {
+        start: 0,
+        next: 0,
+        length: 0,
+        taken: None,
+        watched: None,
+    };
     // SAFETY: QEMU lends the block and its instructions until this function returns.
     unsafe {
         for i in 0..qemu::qemu_plugin_tb_n_insns(block) {
             let instruction = qemu::qemu_plugin_tb_get_insn(block, i);
-            let function = name(qemu::qemu_plugin_insn_symbol(instruction));
-            let first = i == 0;
-            if first && function == "octray_resume" {
-                mark(instruction, resume);
-            } else if first && function == "octray_pause" {
-                mark(instruction, pause);
+            let function = text(qemu::qemu_plugin_insn_symbol(instruction));
+            let function = format!("{:#}", rustc_demangle::demangle(&function));
+            let disassembled = qemu::qemu_plugin_insn_disas(instruction);
+            let disassembly = text(disassembled);
+            qemu::g_free(disassembled.cast_mut().cast());
+            let address = qemu::qemu_plugin_insn_vaddr(instruction);
+            if i == 0 {
+                seen.start = address;
+                match &*function {
+                    "octray_resume" => mark(instruction, resume),
+                    "octray_pause" => mark(instruction, pause),
+                    _ => {}
+                }
+                with_state(|state| {
+                    let watched = path::watched(&function, &state.watch);
+                    seen.watched = watched.then(|| function.clone());
+                });
             }
-            let disassembly = qemu::qemu_plugin_insn_disas(instruction);
-            let class = Class::of(&name(disassembly));
-            qemu::g_free(disassembly.cast_mut().cast());
-            let counter = with_state(|state| state.counter(&function, class));
-            qemu::qemu_plugin_register_vcpu_insn_exec_inline(
-                instruction,
-                qemu::ADD_U64,
-                counter.cast(),
-                1,
-            );
+            seen.next = address + qemu::qemu_plugin_insn_size(instruction) as u64;
+            seen.length += 1;
+            let kind = Kind::of(&disassembly);
+            seen.taken = (kind == Kind::BranchIf).then(|| counter(What::Taken));
+            add(instruction, counter(What::Executed(function, kind)), 1);
+            if matches!(kind, Kind::Multiple | Kind::MultipleReturn) {
+                add(instruction, counter(What::Moved), moved(&disassembly));
+            }
         }
+        let seen: *mut Block = Box::leak(Box::new(seen));
+        qemu::qemu_plugin_register_vcpu_tb_exec_cb(block, come, qemu::NO_REGISTERS, seen.cast());
+    }
+}
+
+fn counter(what: What) -> &'static AtomicU64 {
+    with_state(|state| state.tally.counter(what))
+}
+
+/// # Safety
+/// `instruction` must be of the block that is being translated.
+unsafe fn add(instruction: *mut qemu::Instruction, counter: &'static AtomicU64, n: u64) {
+    // SAFETY: by this function's contract; boards have one core, so that nobody else adds.
+    unsafe {
+        qemu::qemu_plugin_register_vcpu_insn_exec_inline(
+            instruction,
+            qemu::ADD_U64,
+            counter.as_ptr().cast(),
+            n,
+        );
     }
 }
 
@@ -176,7 +171,7 @@ unsafe fn mark(instruction: *mut qemu::Instruction, then: qemu::Executed) {
 
 /// # Safety
 /// `text` must be null or end in a null byte.
-unsafe fn name(text: *const c_char) -> String {
+unsafe fn text(text: *const c_char) -> String {
     if text.is_null() {
         return "?".into();
     }
@@ -186,16 +181,22 @@ unsafe fn name(text: *const c_char) -> String {
         .into_owned()
 }
 
+extern "C" fn come(_: c_uint, block: *mut c_void) {
+    // SAFETY: `translated` registers a block that is never freed.
+    let block: &'static Block = unsafe { &*block.cast_const().cast() };
+    with_state(|state| state.path.come(block, &mut state.tally));
+}
+
 extern "C" fn resume(_: c_uint, _: *mut c_void) {
-    with_state(|state| state.run(true));
+    with_state(|state| state.tally.run(true));
 }
 
 extern "C" fn pause(_: c_uint, _: *mut c_void) {
-    with_state(|state| state.run(false));
+    with_state(|state| state.tally.run(false));
 }
 
 extern "C" fn at_exit(_: u64, _: *mut c_void) {
-    let (out, report) = with_state(|state| (state.out.clone(), state.report()));
+    let (out, report) = with_state(|state| (state.out.clone(), state.tally.report()));
     if let Err(error) = fs::write(&out, report) {
         eprintln!("octray-count: cannot write {out}: {error}");
     }

@@ -14,7 +14,7 @@ pub(crate) struct Instruction {
     _opaque: [u8; 0],
 }
 
-/// Called before an instruction is executed, with the core's number and the registrant's data.
+/// Called before an instruction or a block is executed, with the core's number and the registrant's data.
 pub(crate) type Executed = extern "C" fn(c_uint, *mut c_void);
 
 /// `QEMU_PLUGIN_INLINE_ADD_U64`.
@@ -34,9 +34,17 @@ unsafe extern "C" {
     );
     pub(crate) fn qemu_plugin_tb_n_insns(block: *const Block) -> usize;
     pub(crate) fn qemu_plugin_tb_get_insn(block: *const Block, i: usize) -> *mut Instruction;
+    pub(crate) fn qemu_plugin_insn_vaddr(instruction: *const Instruction) -> u64;
+    pub(crate) fn qemu_plugin_insn_size(instruction: *const Instruction) -> usize;
     pub(crate) fn qemu_plugin_insn_symbol(instruction: *const Instruction) -> *const c_char;
     /// The caller frees it with [`g_free`].
     pub(crate) fn qemu_plugin_insn_disas(instruction: *const Instruction) -> *const c_char;
+    pub(crate) fn qemu_plugin_register_vcpu_tb_exec_cb(
+        block: *mut Block,
+        callback: Executed,
+        registers: c_int,
+        data: *mut c_void,
+    );
     pub(crate) fn qemu_plugin_register_vcpu_insn_exec_cb(
         instruction: *mut Instruction,
         callback: Executed,

@@ -1,10 +1,10 @@
 //! Arguments of `octray bake`.
 
 use super::value;
-use crate::bake::BakeJob;
+use crate::bake::{BakeJob, TreeKind};
 use crate::error::Error;
 use crate::job::{Arith, DEEPEST};
-use clap::{Args, ValueEnum, value_parser};
+use clap::{Args, value_parser};
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ pub struct BakeArgs {
     size: Option<(u32, u32)>,
     /// The tree to bake
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
-    tree: Tree,
+    tree: TreeKind,
     /// How often a ray may bounce
     #[arg(long, value_name = "D", default_value_t = 8, value_parser = value_parser!(u32).range(..=i64::from(DEEPEST)))]
     max_depth: u32,
@@ -36,16 +36,6 @@ pub struct BakeArgs {
     /// The Rust source [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-}
-
-/// The trees that can be baked.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Tree {
-    /// Up to eight tight boxes per node in few bytes, walked in integers.
-    #[default]
-    Packed,
-    /// None: every ray tries every object.
-    None,
 }
 
 impl BakeArgs {
@@ -62,7 +52,7 @@ impl BakeArgs {
             scene: self.scene,
             arith: self.arith,
             size: self.size,
-            packed: self.tree == Tree::Packed,
+            tree: self.tree,
             max_depth: self.max_depth,
             cut_off: self.cut_off,
             leaf_size: self.leaf_size.get(),

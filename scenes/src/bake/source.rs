@@ -4,6 +4,7 @@ use super::{Literal, Options};
 use crate::quantise::Prepared;
 use octray_core::camera::Projection;
 use octray_core::needs::{self, Needs};
+use octray_core::octree;
 use octray_core::packet::Parts;
 use octray_core::ray::Bounds;
 use octray_core::scene::{Attributes, Light, Surface};
@@ -12,19 +13,35 @@ use octray_core::shape::{
 };
 use octray_core::vec3::{Axis, Vec3};
 use std::fmt::{self, Display, Formatter};
-use std::mem::size_of;
 
 /// All that is written.
 pub(super) struct Tables<'a, S: Literal> {
     pub(super) prepared: &'a Prepared<S>,
-    /// The packed tree's nodes, if there is one.
-    pub(super) words: Option<&'a [u32]>,
+    pub(super) tree: Tree,
     /// The objects, leaf by leaf.
     pub(super) links: &'a [ObjectRef],
     pub(super) needs: Needs,
     pub(super) rays: usize,
-    pub(super) tree_depth: u32,
     pub(super) options: &'a Options<'a>,
+}
+
+/// What finds the objects.
+pub(super) enum Tree {
+    /// A list of all.
+    None,
+    /// The packed tree's nodes and its tick.
+    Packed(Vec<u32>, u32),
+    /// The number of words that a tree grown like this takes.
+    Device(usize, octree::Options),
+}
+
+impl Tree {
+    fn words(&self) -> &[u32] {
+        match self {
+            Self::Packed(words, _) => words,
+            _ => &[],
+        }
+    }
 }
 
 impl<S: Literal> Tables<'_, S> {
@@ -41,10 +58,19 @@ impl<S: Literal> Tables<'_, S> {
             + size_of_val(&*scene.edges)
             + size_of_val(&*scene.patches)
             + size_of_val(&*scene.normals)
-            + self.links.len() * (size_of::<Attributes>() + size_of::<ObjectRef>())
+            + size_of_val(scene.scene().attributes)
+            + size_of_val(self.baked_links())
             + size_of_val(&*scene.surfaces)
             + size_of_val(&*scene.lights)
-            + self.words.map_or(0, size_of_val)
+            + size_of_val(self.tree.words())
+    }
+
+    /// The links, unless the device makes its own.
+    fn baked_links(&self) -> &[ObjectRef] {
+        match self.tree {
+            Tree::Device(..) => &[],
+            _ => self.links,
+        }
     }
 }
 
@@ -75,10 +101,10 @@ impl<S: Literal> Display for Tables<'_, S> {
         )?;
         array(f, "SURFACES", "scene::Surface<S>", &scene.surfaces, surface)?;
         array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
-        array(f, "LINKS", "shape::ObjectRef", self.links, link)?;
-        if let Some(words) = self.words {
-            array(f, "WORDS", "u32", words, |w| format!("{w:#010x}"))?;
-        }
+        array(f, "LINKS", "shape::ObjectRef", self.baked_links(), link)?;
+        array(f, "WORDS", "u32", self.tree.words(), |w| {
+            format!("{w:#010x}")
+        })?;
         writeln!(
             f,
             "\n/// The scene.\npub static SCENE: scene::Scene<'static, S, NEEDS> = scene::Scene {{\n    \
@@ -94,13 +120,19 @@ impl<S: Literal> Display for Tables<'_, S> {
             vector(&scene.background),
             number(scene.reach),
         )?;
-        let tree = match self.words {
-            Some(_) => "octree::Packed { words: &WORDS, links: &LINKS }",
-            None => "octree::List(&LINKS)",
+        let tree = match &self.tree {
+            Tree::None => "octree::List(&LINKS)".into(),
+            Tree::Packed(_, tick) => {
+                format!("octree::Packed {{ words: &WORDS, links: &LINKS, tick: {tick} }}")
+            }
+            Tree::Device(..) => String::new(),
         };
+        if !tree.is_empty() {
+            writeln!(f, "\n/// Its tree.\npub static TREE: Tree = {tree};")?;
+        }
         writeln!(
             f,
-            "\n/// Its tree.\npub static TREE: Tree = {tree};\n\n/// Its picture.\n\
+            "\n/// Its picture.\n\
              pub static FRAME: packet::Frame<S> = packet::Frame::from_parts({});",
             parts(self.prepared.frame.parts())
         )
@@ -112,9 +144,17 @@ impl<S: Literal> Tables<'_, S> {
         let Options { name, view, .. } = self.options;
         let raw = S::RAW;
         let parts = self.prepared.frame.parts();
-        let tree = match self.words {
-            Some(_) => "octree::Packed<'static>",
-            None => "octree::List<'static>",
+        let tree = match self.tree {
+            Tree::None => "octree::List<'static>",
+            Tree::Packed(..) | Tree::Device(..) => "octree::Packed<'static>",
+        };
+        let device = match &self.tree {
+            Tree::Device(words, octree::Options { depth, leaf_size }) => format!(
+                "/// Words that the tree takes on the device.\npub const TREE_WORDS: usize = {words};\n\
+                 /// How it is built.\npub const GROWTH: octree::Options = \
+                 octree::Options {{ depth: {depth}, leaf_size: {leaf_size} }};\n"
+            ),
+            _ => String::new(),
         };
         let needed: Vec<_> = needs::NAMES
             .into_iter()
@@ -138,7 +178,8 @@ impl<S: Literal> Tables<'_, S> {
              /// Rays of less weight are not traced.\npub const CUT_OFF: S = {};\n\
              /// How many rays can wait at once.\npub const RAYS: usize = {};\n\
              /// How many lights there are.\npub const LIGHTS: usize = {};\n\
-             /// How many levels the tree has.\npub const TREE_DEPTH: u32 = {};\n\n\
+             /// How many objects there are.\npub const OBJECTS: usize = {};\n\
+             {device}\n\
              const fn n(raw: {raw}) -> S {{\n    {}\n}}\n\n\
              const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \
              vec3::vec3(n(x), n(y), n(z))\n}}\n",
@@ -153,7 +194,7 @@ impl<S: Literal> Tables<'_, S> {
             number(S::from_f64(self.options.cut_off)),
             self.rays,
             self.prepared.scene.lights.len(),
-            self.tree_depth,
+            self.links.len(),
             S::FROM_RAW,
         )
     }
@@ -298,7 +339,8 @@ fn surface<S: Literal>(surface: &Surface<S>) -> String {
 
 fn light<S: Literal>(light: &Light<S>) -> String {
     let (position, colour) = (vector(&light.position), vector(&light.colour));
-    format!("scene::Light {{ position: {position}, colour: {colour} }}")
+    let clearance = number(light.clearance);
+    format!("scene::Light {{ position: {position}, colour: {colour}, clearance: {clearance} }}")
 }
 
 fn link(link: &ObjectRef) -> String {

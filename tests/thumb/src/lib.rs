@@ -103,7 +103,7 @@ pub fn octray_packed(
     workspace: &mut Workspace<'_, Number, PackedStack>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = Packed::build(&scene.shapes, words, links, boxes, OPTIONS) {
+    if let Ok((tree, _)) = Packed::build(&scene.shapes, scene.reach, words, links, boxes, OPTIONS) {
         render!(scene, camera, &tree, workspace, row);
     }
 }

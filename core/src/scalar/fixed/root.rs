@@ -19,6 +19,16 @@ pub(crate) fn reciprocal_q30(x_q32: u32) -> u32 {
     y_q30.min(0x7fff_ffff)
 }
 
+/// 1/x for `x_q16` in [2¹⁵, 2¹⁶), that is x in [½, 1); 1/x in (1, 2] with 15 bits behind the point,
+/// clamped below 2. Relative error below 2⁻¹³, by 16-bit products.
+#[inline(always)]
+pub(crate) fn reciprocal_q15(x_q16: u32) -> u32 {
+    let start_q15 = u32::from(RECIPROCAL_Q15[(x_q16 >> 9) as usize & 63]);
+    // y ← y (2 − x y)
+    let rest_q31 = (x_q16 * start_q15).wrapping_neg();
+    ((start_q15 * (rest_q31 >> 16)) >> 15).min(0xffff)
+}
+
 /// 1/√x for `x_q32` in [2³⁰, 2³²), that is x in [¼, 1); 1/√x in (1, 2] with 30 bits behind the
 /// point, clamped below 2. Relative error below 2⁻²⁷.
 #[cfg_attr(octray_armv6m, inline(never))]

@@ -212,6 +212,8 @@ impl Scalar for Fixed64 {
 
     const GRID_SLACK: i32 = 4;
 
+    const SOUND: bool = true;
+
     #[inline(always)]
     fn slope_q30(self) -> i32 {
         (self.0 >> (F - 30)) as i32
@@ -249,7 +251,6 @@ impl Quantize for Fixed64 {
     const NAME: &'static str = "i32f32";
     const FRACTION_BITS: Option<u32> = Some(F);
     const SLACK: f64 = 1.0 / (1u64 << 28) as f64;
-    const SOUND: bool = true;
 
     fn from_f64(x: f64) -> Self {
         let scaled = x * (1u64 << F) as f64;

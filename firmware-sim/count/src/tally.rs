@@ -1,0 +1,141 @@
+//! What is counted, and the report of it.
+
+use crate::kind::{Class, Kind};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Something that QEMU, or a callback, adds to while the guest runs.
+#[derive(Clone, Copy)]
+pub(crate) struct Counter {
+    now: &'static AtomicU64,
+    /// Its value when counting was last resumed.
+    start: u64,
+    /// What counts.
+    sum: u64,
+}
+
+impl Counter {
+    fn new() -> Self {
+        Self {
+            now: Box::leak(Box::default()),
+            start: 0,
+            sum: 0,
+        }
+    }
+}
+
+/// What is counted apart.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum What {
+    /// Instructions of a kind, in a function.
+    Executed(String, Kind),
+    /// Conditional branches that were taken.
+    Taken,
+    /// Registers that loads and stores of several moved.
+    Moved,
+}
+
+/// Calls of one function.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Calls {
+    /// How many.
+    pub(crate) count: u64,
+    /// Instructions from entry to return, those of the functions it calls included.
+    pub(crate) instructions: u64,
+}
+
+/// All counters.
+pub(crate) struct Tally {
+    pub(crate) running: bool,
+    counters: BTreeMap<What, Counter>,
+    pub(crate) calls: BTreeMap<String, Calls>,
+}
+
+impl Tally {
+    pub(crate) const fn new() -> Self {
+        Self {
+            running: false,
+            counters: BTreeMap::new(),
+            calls: BTreeMap::new(),
+        }
+    }
+
+    /// Where to add for it.
+    pub(crate) fn counter(&mut self, what: What) -> &'static AtomicU64 {
+        self.counters.entry(what).or_insert_with(Counter::new).now
+    }
+
+    /// Resumes or pauses.
+    pub(crate) fn run(&mut self, running: bool) {
+        for counter in self.counters.values_mut() {
+            let now = counter.now.load(Ordering::Relaxed);
+            if self.running {
+                counter.sum += now - counter.start;
+            }
+            counter.start = now;
+        }
+        self.running = running;
+    }
+
+    /// All that was counted, line by line.
+    pub(crate) fn report(&self) -> String {
+        let mut classes: BTreeMap<Class, u64> = BTreeMap::new();
+        let mut kinds: BTreeMap<Kind, u64> = BTreeMap::new();
+        let mut functions: BTreeMap<&str, u64> = BTreeMap::new();
+        let (mut taken, mut moved) = (0, 0);
+        for (what, counter) in &self.counters {
+            match what {
+                What::Executed(function, kind) => {
+                    *classes.entry(kind.class()).or_default() += counter.sum;
+                    *kinds.entry(*kind).or_default() += counter.sum;
+                    *functions.entry(function).or_default() += counter.sum;
+                }
+                What::Taken => taken = counter.sum,
+                What::Moved => moved = counter.sum,
+            }
+        }
+        let mut functions: Vec<_> = functions.into_iter().filter(|(_, n)| *n > 0).collect();
+        functions.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
+        let mut text = format!("instructions {}\n", classes.values().sum::<u64>());
+        // Writing to a string cannot fail.
+        for (class, n) in classes {
+            let _ = writeln!(text, "class {} {n}", class.name());
+        }
+        for (kind, n) in kinds {
+            let _ = writeln!(text, "kind {} {n}", kind.name());
+        }
+        let _ = writeln!(text, "taken {taken}\nmoved {moved}");
+        for (name, calls) in &self.calls {
+            let Calls {
+                count,
+                instructions,
+            } = calls;
+            let _ = writeln!(text, "calls {count} {instructions} {name}");
+        }
+        for (name, n) in functions {
+            let _ = writeln!(text, "function {n} {name}");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_happens_while_it_runs_counts() {
+        let mut tally = Tally::new();
+        let add = tally.counter(What::Executed("f".into(), Kind::Load));
+        add.fetch_add(5, Ordering::Relaxed);
+        tally.run(true);
+        add.fetch_add(7, Ordering::Relaxed);
+        tally.run(false);
+        add.fetch_add(11, Ordering::Relaxed);
+        let report = tally.report();
+        assert!(report.contains("instructions 7\n"), "{report}");
+        assert!(report.contains("class load-store 7\nkind load 7\n"));
+        assert!(report.contains("function 7 f\n"));
+    }
+}

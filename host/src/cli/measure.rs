@@ -1,0 +1,170 @@
+//! Arguments of `octray measure`.
+
+use super::value;
+use crate::error::Error;
+use crate::job::{Arith, DEEPEST};
+use crate::measure::board::{self, BOARDS, Board};
+use crate::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
+use crate::measure::reference::View;
+use clap::{Args, value_parser};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Arguments of `octray measure`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "\
+Boards: m0 (Cortex-M0, micro:bit), m3, m4 (without its floating-point unit), m4f, m7f,
+rv32imac, sifive-e, rv32imafc. A target's name stands for all its boards.
+
+Instructions are counted by a plugin of QEMU, exactly; start-up and the panel are left out.
+Cycles are estimated from the cores' manuals at zero wait states.")]
+pub struct MeasureArgs {
+    /// Scene files [default: the five figures]
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// Boards or targets, separated by commas [default: all]
+    #[arg(long, value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
+    targets: Vec<Vec<&'static Board>>,
+    /// Arithmetics, separated by commas
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_enum,
+        value_delimiter = ',',
+        default_value = "f32,auto"
+    )]
+    arith: Vec<Arith>,
+    /// Columns and rows; the framing stays
+    #[arg(long, value_name = "WxH", default_value = "64x48", value_parser = value::size)]
+    size: (u32, u32),
+    /// How often a ray may bounce
+    #[arg(long, value_name = "D", default_value_t = 8, value_parser = value_parser!(u32).range(..=i64::from(DEEPEST)))]
+    max_depth: u32,
+    /// The firmware's tree
+    #[arg(long, value_name = "KIND", value_enum, default_value_t)]
+    tree: TreeKind,
+    /// What the compiler makes small
+    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
+    optimize: Goal,
+    /// Seconds after which a run counts as one without end
+    #[arg(long, value_name = "S", default_value_t = 300, value_parser = value_parser!(u64).range(1..))]
+    patience: u64,
+    /// Tell the N costliest functions of each run
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    functions: usize,
+    /// Write the results as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the results as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+impl MeasureArgs {
+    /// The job that these arguments ask for: nothing in it twice.
+    ///
+    /// # Errors
+    /// If a result would replace a scene or the other result.
+    pub fn job(self) -> Result<MeasureJob, Error> {
+        for path in self.json.iter().chain(&self.csv) {
+            if self.scenes.contains(path) {
+                let name = path.display();
+                return Err(Error::Usage(format!("{name} is a scene itself")));
+            }
+        }
+        if self.json.is_some() && self.json == self.csv {
+            return Err(Error::Usage("--json and --csv name the same file".into()));
+        }
+        let boards = match &*self.targets {
+            [] => BOARDS.iter().collect(),
+            named => once(named.iter().flatten().copied(), |a, b| a.name == b.name),
+        };
+        Ok(MeasureJob {
+            scenes: self.scenes,
+            boards,
+            ariths: once(self.arith, |a, b| a == b),
+            view: View {
+                size: self.size,
+                max_depth: self.max_depth,
+            },
+            build: BuildOptions {
+                tree: self.tree,
+                optimize: self.optimize,
+            },
+            patience: Duration::from_secs(self.patience),
+            functions: self.functions,
+            json: self.json,
+            csv: self.csv,
+        })
+    }
+}
+
+/// Each once, in the order of their first mention.
+fn once<T>(all: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
+    let mut found: Vec<T> = Vec::new();
+    for item in all {
+        if !found.iter().any(|known| same(known, &item)) {
+            found.push(item);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: MeasureArgs,
+    }
+
+    fn parse(line: &str) -> Result<MeasureArgs, clap::Error> {
+        let words = std::iter::once("measure").chain(line.split_whitespace());
+        Line::try_parse_from(words).map(|line| line.args)
+    }
+
+    fn boards(line: &str) -> Vec<&'static str> {
+        let job = parse(line).unwrap().job().unwrap();
+        job.boards.iter().map(|board| board.name).collect()
+    }
+
+    #[test]
+    fn the_defaults_are_the_documented_ones() {
+        let job = parse("").unwrap().job().unwrap();
+        assert!(job.scenes.is_empty());
+        assert_eq!(job.boards.len(), BOARDS.len());
+        assert_eq!(job.ariths, [Arith::F32, Arith::Auto]);
+        assert_eq!((job.view.size, job.view.max_depth), ((64, 48), 8));
+        assert_eq!(job.build.tree, TreeKind::Packed);
+        assert_eq!(job.build.optimize, Goal::Speed);
+    }
+
+    #[test]
+    fn nothing_is_measured_twice() {
+        let named = boards("--targets m7f,thumbv7em-none-eabihf,m0,m7f");
+        assert_eq!(named, ["m7f", "m4f", "m0"]);
+        let job = parse("--arith f32,f32,i16f16").unwrap().job().unwrap();
+        assert_eq!(job.ariths, [Arith::F32, Arith::I16F16]);
+    }
+
+    #[test]
+    fn wrong_values_are_refused() {
+        for line in [
+            "--targets m1",
+            "--arith blob",
+            "--size 0x4",
+            "--tree plain",
+            "--optimize all",
+            "--patience 0",
+        ] {
+            assert!(parse(line).is_err(), "{line}");
+        }
+        for line in ["a --json a", "a --json b --csv b"] {
+            let error = parse(line).unwrap().job().unwrap_err();
+            assert!(matches!(error, Error::Usage(_)), "{line}");
+        }
+    }
+}

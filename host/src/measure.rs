@@ -1,0 +1,118 @@
+//! `octray measure`: what pictures cost on small targets, counted in an emulator.
+//!
+//! In the order of the data: a checked [`job`]; [`workspace`] builds the firmware and the
+//! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
+//! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
+//! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
+//! and [`report`] tells it.
+
+pub mod board;
+pub mod child;
+pub mod count;
+pub mod cycles;
+pub mod emulate;
+pub mod frames;
+pub mod job;
+pub mod memory;
+pub mod reference;
+pub mod report;
+pub mod row;
+pub mod workspace;
+
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::progress::Progress;
+use board::Board;
+use emulate::Emulator;
+use frames::{Bench, Named};
+use job::MeasureJob;
+use report::Report;
+use std::path::PathBuf;
+use workspace::{Program, Workspace};
+
+/// The scenes that are measured if none is named.
+const FIGURES: [&str; 5] = [
+    "scenes/figure-19.scene",
+    "scenes/figure-20.scene",
+    "scenes/figure-21.scene",
+    "scenes/figure-22.scene",
+    "scenes/figure-23.scene",
+];
+
+/// Measure, and tell.
+///
+/// # Errors
+/// When something is missing, a scene is refused, a result cannot be written, or any combination
+/// failed: then all others have been told.
+pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
+    for path in job.json.iter().chain(&job.csv) {
+        output::probe(path)?;
+    }
+    let root = Workspace::root()?;
+    let scenes = match &*job.scenes {
+        [] => FIGURES.iter().map(|name| root.join(name)).collect(),
+        scenes => scenes.to_vec(),
+    };
+    let scenes: Vec<_> = (scenes.iter())
+        .map(|path| Named::read(path))
+        .collect::<Result<_, _>>()?;
+    board::require(&job.boards, &root)?;
+    let workspace = Workspace::open(root)?;
+    let plugin = plugin(&workspace, interrupt)?;
+    let progress = Progress::new("measuring");
+    progress.start(scenes.len() * job.ariths.len() * job.boards.len());
+    let bench = Bench {
+        workspace: &workspace,
+        emulator: &Emulator {
+            plugin: &plugin,
+            patience: job.patience,
+            watch: frames::SEARCH,
+        },
+        progress: &progress,
+        interrupt,
+    };
+    let rows = bench.frames(&scenes, job)?;
+    drop(progress);
+    let versions = workspace.versions();
+    let report = Report {
+        commit: versions.commit,
+        toolchain: versions.toolchain,
+        emulator: emulators(&job.boards),
+        rows,
+    };
+    if let Some(path) = &job.json {
+        output::write_file(path, interrupt, |out| report.write_json(out))?;
+    }
+    if let Some(path) = &job.csv {
+        output::write_file(path, interrupt, |out| report.write_csv(out))?;
+    }
+    output::write_stdout(interrupt, |out| {
+        out.write_all(report.text(job.functions).as_bytes())
+    })?;
+    match report.rows.iter().filter(|row| row.cost.is_none()).count() {
+        0 => Ok(()),
+        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
+    }
+}
+
+/// Builds the plugin that counts.
+fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
+    let program = Program {
+        package: "octray-count",
+        arguments: &["--release"],
+        variables: &[],
+        artifact: "octray_count",
+    };
+    workspace
+        .build(&program, interrupt)?
+        .map_err(|why| Error::Failed(format!("the emulator's plugin cannot be built: {why}")))
+}
+
+/// The emulators' versions, each once.
+fn emulators(boards: &[&Board]) -> String {
+    let mut versions: Vec<_> = boards.iter().map(|board| emulate::version(board)).collect();
+    versions.sort();
+    versions.dedup();
+    versions.join(", ")
+}

@@ -1,0 +1,208 @@
+//! An estimate of cycles: instructions by kind, times what a core's manual says each kind takes at
+//! zero wait states. What the manual gives as a range, or what depends on neighbouring
+//! instructions, stays a range.
+
+use super::count::{Count, Kind};
+use serde::Serialize;
+
+/// At least and at most so many cycles.
+type Range = (u64, u64);
+
+/// What instructions take on a core.
+#[derive(Debug)]
+pub struct Table {
+    /// Where the numbers have been published.
+    pub source: &'static str,
+    /// Cycles of each kind of instructions; of [`Kind::BranchIf`], when it is not taken.
+    costs: &'static [(Kind, Range)],
+    /// What [`Kind::BranchIf`] takes more when it is taken.
+    taken: Range,
+    /// What each register takes more that [`Kind::Multiple`] or [`Kind::MultipleReturn`] moves.
+    moved: Range,
+}
+
+/// A single-cycle multiplier, as in most parts.
+pub const CORTEX_M0: Table = Table {
+    source: "Arm Cortex-M0 Technical Reference Manual (DDI 0432), table 3-1",
+    costs: &[
+        (Kind::Load, (2, 2)),
+        (Kind::LoadPart, (2, 2)),
+        (Kind::Store, (2, 2)),
+        (Kind::Multiple, (1, 1)),
+        (Kind::MultipleReturn, (4, 4)),
+        (Kind::BranchIf, (1, 1)),
+        (Kind::Branch, (3, 3)),
+        (Kind::Call, (4, 4)),
+        (Kind::Indirect, (3, 3)),
+        (Kind::Multiply, (1, 1)),
+        (Kind::Other, (1, 1)),
+    ],
+    taken: (2, 2),
+    moved: (1, 1),
+};
+
+/// A refill of the pipeline takes 1 to 3; neighbouring loads and stores of a word overlap.
+pub const CORTEX_M3: Table = Table {
+    source: "Arm Cortex-M3 Technical Reference Manual (100165), table 3-1",
+    costs: &[
+        (Kind::Load, (1, 2)),
+        (Kind::LoadPart, (1, 2)),
+        (Kind::Store, (1, 2)),
+        (Kind::Multiple, (1, 1)),
+        (Kind::MultipleReturn, (2, 4)),
+        (Kind::BranchIf, (1, 1)),
+        (Kind::Branch, (2, 4)),
+        (Kind::Call, (2, 4)),
+        (Kind::Indirect, (2, 4)),
+        (Kind::Multiply, (1, 1)),
+        (Kind::MultiplyAdd, (2, 2)),
+        (Kind::MultiplyLong, (3, 5)),
+        (Kind::MultiplyLongAdd, (4, 7)),
+        (Kind::Divide, (2, 12)),
+        (Kind::Other, (1, 1)),
+    ],
+    taken: (1, 3),
+    moved: (1, 1),
+};
+
+/// As the Cortex-M3, with a faster multiplier and a unit for floats.
+pub const CORTEX_M4: Table = Table {
+    source: "Arm Cortex-M4 Technical Reference Manual (100166), tables 3-1 and 7-1",
+    costs: &[
+        (Kind::Load, (1, 2)),
+        (Kind::LoadPart, (1, 2)),
+        (Kind::Store, (1, 2)),
+        (Kind::Multiple, (1, 1)),
+        (Kind::MultipleReturn, (2, 4)),
+        (Kind::BranchIf, (1, 1)),
+        (Kind::Branch, (2, 4)),
+        (Kind::Call, (2, 4)),
+        (Kind::Indirect, (2, 4)),
+        (Kind::Multiply, (1, 1)),
+        (Kind::MultiplyAdd, (1, 1)),
+        (Kind::MultiplyLong, (1, 1)),
+        (Kind::MultiplyLongAdd, (1, 1)),
+        (Kind::Divide, (2, 12)),
+        (Kind::Float, (1, 1)),
+        (Kind::FloatMultiplyAdd, (3, 3)),
+        (Kind::FloatDivide, (14, 14)),
+        (Kind::FloatRoot, (14, 14)),
+        (Kind::Other, (1, 1)),
+    ],
+    taken: (1, 3),
+    moved: (1, 1),
+};
+
+/// One instruction per cycle at best; at most, every result is waited for and every branch
+/// mispredicted.
+pub const SIFIVE_E31: Table = Table {
+    source: "SiFive FE310-G000 Manual, chapter 3: E31 core",
+    costs: &[
+        (Kind::Load, (1, 2)),
+        (Kind::LoadPart, (1, 3)),
+        (Kind::Store, (1, 1)),
+        (Kind::BranchIf, (1, 4)),
+        (Kind::Branch, (1, 4)),
+        (Kind::Call, (1, 4)),
+        (Kind::Indirect, (1, 4)),
+        (Kind::Multiply, (1, 5)),
+        (Kind::MultiplyLong, (1, 5)),
+        (Kind::Divide, (1, 33)),
+        (Kind::Other, (1, 1)),
+    ],
+    taken: (0, 0),
+    moved: (0, 0),
+};
+
+/// An estimate, not a measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Estimate {
+    /// At least so many cycles.
+    pub least: u64,
+    /// At most so many.
+    pub most: u64,
+}
+
+impl Table {
+    /// The cycles of what was counted; `None` if the table has no number for one of its kinds.
+    pub fn estimate(&self, count: &Count) -> Option<Estimate> {
+        let mut sum = Estimate { least: 0, most: 0 };
+        let mut add = |(least, most): Range, n: u64| {
+            sum.least += least * n;
+            sum.most += most * n;
+        };
+        for (&kind, &n) in count.kinds.iter().filter(|(_, n)| **n > 0) {
+            let (_, cost) = self.costs.iter().find(|(k, _)| *k == kind)?;
+            add(*cost, n);
+        }
+        add(self.taken, count.taken);
+        add(self.moved, count.moved);
+        Some(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(kinds: &[(Kind, u64)], taken: u64, moved: u64) -> Count {
+        Count {
+            kinds: kinds.iter().copied().collect(),
+            taken,
+            moved,
+            ..Count::default()
+        }
+    }
+
+    #[test]
+    fn the_tables_are_the_manuals() {
+        // Three loads, a return that pops r4 and pc, ten branches of which four are taken.
+        let kinds = [
+            (Kind::Load, 3),
+            (Kind::MultipleReturn, 1),
+            (Kind::BranchIf, 10),
+        ];
+        let told = count(&kinds, 4, 2);
+        let cases = [
+            (&CORTEX_M0, (3 * 2 + 4 + 2 + 10 + 4 * 2, 30)),
+            (&CORTEX_M3, (3 + 2 + 2 + 10 + 4, 3 * 2 + 4 + 2 + 10 + 4 * 3)),
+            (&CORTEX_M4, (3 + 2 + 2 + 10 + 4, 3 * 2 + 4 + 2 + 10 + 4 * 3)),
+        ];
+        for (table, (least, most)) in cases {
+            let expected = Some(Estimate { least, most });
+            assert_eq!(table.estimate(&told), expected, "{}", table.source);
+        }
+        let told = count(&[(Kind::LoadPart, 1), (Kind::Divide, 2)], 0, 0);
+        let expected = Some(Estimate { least: 3, most: 69 });
+        assert_eq!(SIFIVE_E31.estimate(&told), expected);
+    }
+
+    #[test]
+    fn long_products_are_what_tells_m3_and_m4_apart() {
+        let told = count(
+            &[(Kind::MultiplyLong, 10), (Kind::MultiplyLongAdd, 10)],
+            0,
+            0,
+        );
+        let cycles = |table: &Table| table.estimate(&told).map(|e| (e.least, e.most));
+        assert_eq!(cycles(&CORTEX_M3), Some((70, 120)));
+        assert_eq!(cycles(&CORTEX_M4), Some((20, 20)));
+    }
+
+    #[test]
+    fn what_a_core_does_not_have_is_not_estimated() {
+        let told = count(&[(Kind::Float, 1)], 0, 0);
+        assert_eq!(SIFIVE_E31.estimate(&told), None);
+        let told = count(&[(Kind::Float, 0), (Kind::Other, 1)], 0, 0);
+        assert!(SIFIVE_E31.estimate(&told).is_some());
+    }
+
+    #[test]
+    fn no_range_is_upside_down() {
+        for table in [&CORTEX_M0, &CORTEX_M3, &CORTEX_M4, &SIFIVE_E31] {
+            for (kind, (least, most)) in table.costs {
+                assert!(least <= most && *least > 0, "{}: {kind:?}", table.source);
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Frames on boards: built, run, counted and compared with the host's.
+
+use super::board::Board;
+use super::emulate::Emulator;
+use super::job::{BuildOptions, MeasureJob};
+use super::memory::Memory;
+use super::reference::{self, Reference, View};
+use super::row::{Cost, Row};
+use super::workspace::{Program, Workspace};
+use crate::check;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::Arith;
+use crate::progress::Progress;
+use octray_scenes::model::Scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The functions whose calls are the search for what a ray meets.
+pub const SEARCH: &str = "nearest:any_hit:blocks";
+
+/// A scene that has been read.
+#[derive(Debug)]
+pub struct Named {
+    name: String,
+    path: PathBuf,
+    scene: Scene,
+}
+
+impl Named {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is wrong.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let scene = check::read(path)?;
+        let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self {
+            name: name.into_owned(),
+            path: path.clone(),
+            scene,
+        })
+    }
+}
+
+/// What measures.
+#[derive(Debug)]
+pub struct Bench<'a> {
+    /// The firmware's sources.
+    pub workspace: &'a Workspace,
+    /// The boards' emulator.
+    pub emulator: &'a Emulator<'a>,
+    /// Shows how far it is.
+    pub progress: &'a Progress,
+    /// Asks to stop.
+    pub interrupt: &'a Interrupt,
+}
+
+impl Bench<'_> {
+    /// Every scene in every arithmetic on every board, in this order.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], or when cargo or the emulator cannot be run. A combination that
+    /// fails is a row that says so.
+    pub fn frames(&self, scenes: &[Named], job: &MeasureJob) -> Result<Vec<Row>, Error> {
+        let mut rows = Vec::new();
+        for scene in scenes {
+            let exact = reference::render(&scene.scene, Arith::F64, job.view, self.interrupt)?;
+            for &arith in &job.ariths {
+                let reference =
+                    Reference::render(&scene.scene, arith, job.view, &exact, self.interrupt);
+                for &board in &job.boards {
+                    let mut row = row(scene, arith, board, job);
+                    let measured = match &reference {
+                        Err(Error::Interrupted) => return Err(Error::Interrupted),
+                        Err(refused) => Err(format!("refused: {refused}")),
+                        Ok(reference) => self.frame(scene, arith, board, job, reference)?,
+                    };
+                    match measured {
+                        Ok((cost, functions)) => {
+                            (row.cost, row.functions) = (Some(cost), functions);
+                        }
+
+                        Err(why) => row.outcome = why,
+                    }
+                    rows.push(row);
+                    self.progress.step();
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// One combination: its cost and its functions, or why there is none.
+    fn frame(
+        &self,
+        scene: &Named,
+        arith: Arith,
+        board: &Board,
+        job: &MeasureJob,
+        reference: &Reference,
+    ) -> Result<Result<(Cost, Functions), String>, Error> {
+        let source = scene.path.to_string_lossy();
+        let program = match self.firmware(&source, arith, board, job.view, job.build)? {
+            Ok(program) => program,
+            Err(why) => return Ok(Err(format!("not built: {why}"))),
+        };
+        let run = match self.emulator.run(board, &program, self.interrupt)? {
+            Ok(run) => run,
+            Err(why) => return Ok(Err(why)),
+        };
+        let file = fs::read(&program).map_err(|cause| Error::read(&program, cause))?;
+        let memory = Memory::of(&file)
+            .map_err(|cause| Error::Failed(format!("{}: {cause}", program.display())))?;
+        let told = |name| run.told.get(name).cloned().unwrap_or_default();
+        let (hash, expected) = (told("hash"), reference.traced.picture.hash());
+        if hash != format!("{expected:016x}") {
+            return Ok(Err(format!(
+                "wrong picture: its hash is {hash}, the host's {expected:016x}"
+            )));
+        }
+        let Ok(stack) = told("stack").parse() else {
+            return Ok(Err("its stack is not known".into()));
+        };
+        let cost = Cost::new(board, &run.count, reference, memory, stack, hash);
+        Ok(Ok((cost, run.count.functions)))
+    }
+
+    /// Builds the firmware.
+    fn firmware(
+        &self,
+        scene: &str,
+        arith: Arith,
+        board: &Board,
+        view: View,
+        options: BuildOptions,
+    ) -> Result<Result<PathBuf, String>, Error> {
+        let size = format!("{}x{}", view.size.0, view.size.1);
+        let depth = view.max_depth.to_string();
+        let mut variables = vec![
+            ("OCTRAY_SCENE", scene),
+            ("OCTRAY_ARITH", arith.name()),
+            ("OCTRAY_SIZE", &size),
+            ("OCTRAY_MAX_DEPTH", &depth),
+            ("OCTRAY_TREE", options.tree.name()),
+            ("OCTRAY_COUNTS", "0"),
+            ("CARGO_PROFILE_FIRMWARE_OPT_LEVEL", options.optimize.level()),
+        ];
+        // The memory of Arm's boards is alike, and so is what is built for them.
+        if !board.is_arm() {
+            variables.push(("OCTRAY_BOARD", board.machine));
+        }
+        let program = Program {
+            package: "octray-firmware-sim",
+            arguments: &[
+                "--bin",
+                "octray-firmware",
+                "--profile",
+                "firmware",
+                "--target",
+                board.target,
+            ],
+            variables: &variables,
+            artifact: "octray-firmware",
+        };
+        self.workspace.build(&program, self.interrupt)
+    }
+}
+
+/// Functions and their own instructions.
+type Functions = Vec<(String, u64)>;
+
+fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> Row {
+    Row {
+        scene: scene.name.clone(),
+        objects: scene.scene.objects.len(),
+        width: job.view.size.0,
+        height: job.view.size.1,
+        max_depth: job.view.max_depth,
+        board,
+        arith,
+        tree: job.build.tree,
+        optimize: job.build.optimize,
+        outcome: "ok".into(),
+        cost: None,
+        functions: Vec::new(),
+    }
+}

@@ -1,0 +1,83 @@
+//! What to measure: a command line that has been checked.
+
+use super::board::Board;
+use super::reference::View;
+use crate::job::Arith;
+use clap::ValueEnum;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Everything `octray measure` was asked for.
+#[derive(Clone, Debug)]
+pub struct MeasureJob {
+    /// The scene files; the five figures if there is none.
+    pub scenes: Vec<PathBuf>,
+    /// The boards.
+    pub boards: Vec<&'static Board>,
+    /// The arithmetics.
+    pub ariths: Vec<Arith>,
+    /// The picture.
+    pub view: View,
+    /// How firmware is built.
+    pub build: BuildOptions,
+    /// How long a run may take.
+    pub patience: Duration,
+    /// How many of the costliest functions to tell.
+    pub functions: usize,
+    /// Where to write the results as JSON.
+    pub json: Option<PathBuf>,
+    /// Where to write them as comma-separated values.
+    pub csv: Option<PathBuf>,
+}
+
+/// How firmware is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuildOptions {
+    /// The tree.
+    pub tree: TreeKind,
+    /// What the compiler makes small.
+    pub optimize: Goal,
+}
+
+/// The tree of the firmware.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TreeKind {
+    /// The packed tree, baked.
+    #[default]
+    Packed,
+    /// None: every ray tries every object.
+    None,
+}
+
+/// What the compiler makes small.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Goal {
+    /// Time.
+    #[default]
+    Speed,
+    /// Code.
+    Size,
+}
+
+impl TreeKind {
+    /// Its name on the command line and for the firmware's build script.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Packed => "packed",
+            Self::None => "none",
+        }
+    }
+}
+
+impl Goal {
+    /// The compiler's level of optimisation.
+    pub fn level(self) -> &'static str {
+        match self {
+            Self::Speed => "3",
+            Self::Size => "s",
+        }
+    }
+}

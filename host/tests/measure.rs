@@ -1,0 +1,142 @@
+//! `octray measure` end to end: on two boards where their emulators are installed, and what is said
+//! where they are not.
+
+use snapbox::cmd::cargo_bin;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::{env, fs};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
+fn measure(line: &str) -> Command {
+    let mut command = Command::new(cargo_bin!("octray"));
+    command
+        .current_dir(root())
+        .arg("measure")
+        .args(line.split_whitespace());
+    command
+}
+
+/// What it printed, or `None` if this machine lacks a target or an emulator.
+fn run(line: &str) -> Option<Output> {
+    let output = measure(line).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    if told.contains(" is missing: ") {
+        eprintln!("skipped: {told}");
+        return None;
+    }
+    Some(output)
+}
+
+#[test]
+fn bad_usage_is_refused() {
+    for (line, expected) in [
+        ("--targets m1", "expected one of m0, m3, m4"),
+        ("--arith half", "invalid value 'half'"),
+        ("--size 64", "expected WIDTHxHEIGHT"),
+        ("--json a --csv a", "--json and --csv name the same file"),
+    ] {
+        let output = measure(line).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {told}");
+        assert!(told.contains(expected), "{line}: {told}");
+    }
+}
+
+#[test]
+fn a_missing_emulator_is_told_with_the_command_that_installs_it() {
+    let output = measure("--targets m0,rv32imac")
+        .env("PATH", "")
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    for line in [
+        "qemu-system-arm is missing: apt-get install qemu-system-arm",
+        "qemu-system-riscv32 is missing: apt-get install qemu-system-misc",
+    ] {
+        assert!(told.contains(line), "{told}");
+    }
+}
+
+#[test]
+fn a_missing_scene_is_told_before_anything_is_built() {
+    let output = measure("no.scene").env("PATH", "").output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(told.contains("no.scene: no such file"), "{told}");
+}
+
+#[test]
+fn two_boards_are_measured_and_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name| folder.path().join(name);
+    let mut results = Vec::new();
+    for name in ["a.json", "b.json"] {
+        let line = format!(
+            "scenes/glass.scene --targets m3,rv32imafc --arith f32 --size 16x12 --json {}",
+            file(name).display()
+        );
+        let Some(output) = run(&line) else { return };
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        results.push((output.stdout, fs::read(file(name)).unwrap()));
+    }
+    assert_eq!(results[0], results[1]);
+    let report: serde_json::Value = serde_json::from_slice(&results[0].1).unwrap();
+    let [soft, hard] = [0, 1].map(|i| &report["rows"][i]);
+    let count = |row: &serde_json::Value, name| row[name].as_u64().unwrap();
+    assert_eq!(
+        (&soft["board"], &hard["board"]),
+        (&"m3".into(), &"rv32imafc".into())
+    );
+    // The same picture with and without a unit for floats, and where the work goes.
+    assert_eq!(soft["hash"], hard["hash"]);
+    assert_eq!((count(soft, "float"), count(hard, "float_library")), (0, 0));
+    assert!(count(soft, "float_library") > count(soft, "instructions") / 2);
+    assert!(count(soft, "instructions") > 3 * count(hard, "instructions"));
+    for row in [soft, hard] {
+        let classes = [
+            "load_store",
+            "branch",
+            "multiply",
+            "divide",
+            "float",
+            "other",
+        ];
+        let sum: u64 = classes.iter().map(|name| count(row, name)).sum();
+        assert_eq!(sum, count(row, "instructions"));
+        let closest = row["per_closest_ray"].as_f64().unwrap();
+        assert!(closest > 100.0, "{closest}");
+        assert!(count(row, "stack") > 500 && count(row, "flash") > 5000);
+    }
+}
+
+#[test]
+fn a_run_that_fails_is_never_a_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("a.csv");
+    // The strip of so wide a picture is larger than the board's memory; a second is too short for
+    // so large a one.
+    for (size, outcome) in [
+        (
+            "2000x8",
+            &["crashed: Lockup", "trapped", "stack overflow"][..],
+        ),
+        ("320x960", &["no end within 1 s"]),
+    ] {
+        let line = format!(
+            "scenes/figure-19.scene --targets m3 --arith f32 --patience 1 --size {size} --csv {}",
+            csv.display()
+        );
+        let Some(output) = run(&line) else { return };
+        assert_eq!(output.status.code(), Some(1), "{size}");
+        let told = fs::read_to_string(&csv).unwrap();
+        let row = told.lines().nth(1).unwrap();
+        let said = |what: &&&str| row.contains(&format!(",speed,{what}"));
+        assert!(outcome.iter().any(|what| said(&what)), "{size}: {row}");
+        assert!(row.contains(",,,,,,,"), "{size}: {row}");
+    }
+}
