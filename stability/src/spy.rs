@@ -4,10 +4,10 @@ use octray_core::observe::Observer;
 use octray_core::octree::{Accelerator, Hit};
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
-use octray_core::scene::{Attributes, Light, Scene, Surface};
+use octray_core::scene::{Attributes, Scene, Surface};
 use octray_core::shape::{ObjectRef, Shapes};
 use octray_core::trace::{Pending, Tracer, Workspace};
-use octray_core::vec3::{Vec3, vec3};
+use octray_core::vec3::Vec3;
 
 /// The rays that left a surface.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +15,6 @@ pub struct Seen<S> {
     met: bool,
     /// Reflected and transmitted rays.
     pub follow: Vec<Ray<S>>,
-    /// Shadow rays.
-    pub shadows: Vec<Ray<S>>,
 }
 
 struct Spy<S>(Hit<S>);
@@ -42,12 +40,11 @@ impl<S: Scalar> Accelerator<S> for Spy<S> {
     fn any_hit<O: Observer>(
         &self,
         _: &Scene<'_, S>,
-        ray: &Ray<S>,
+        _: &Ray<S>,
         _: S,
-        seen: &mut Seen<S>,
+        _: &mut Seen<S>,
         _: &mut O,
     ) -> Option<ObjectRef> {
-        seen.shadows.push(*ray);
         None
     }
 }
@@ -69,42 +66,25 @@ pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
     }
 }
 
-/// A surface that takes light as it comes.
-pub fn paper<S: Scalar>() -> Surface<S> {
-    Surface {
-        diffuse: vec3(S::ONE, S::ONE, S::ONE),
-        ..Surface::default()
-    }
-}
-
-/// The rays that the tracer sends on from where `ray` meets the only object of `shapes`, and to a
-/// light at `light`, if there is one.
+/// The rays that the tracer sends on from where `ray` meets the only object of `shapes`.
 pub fn leaving<S: Scalar>(
     shapes: Shapes<'_, S>,
     surface: Surface<S>,
     ray: &Ray<S>,
     hit: Hit<S>,
-    light: Option<Vec3<S>>,
 ) -> Seen<S> {
     let attributes = [Attributes {
         id: 0,
         surface: 0,
         patch: Attributes::FLAT,
     }];
-    let lights: Vec<Light<S>> = light
-        .map(|position| Light {
-            position,
-            colour: vec3(S::ONE, S::ONE, S::ONE),
-        })
-        .into_iter()
-        .collect();
     let surfaces = [surface];
     let scene = Scene {
         shapes,
         attributes: &attributes,
         first: Scene::first_of(&shapes),
         surfaces: &surfaces,
-        lights: &lights,
+        lights: &[],
         background: Vec3::ZERO,
         reach: S::MAX,
     };

@@ -97,7 +97,7 @@ pub(super) fn leaving<S: Number>(
         t: S::ZERO,
         object: only(Kind::Polygon),
     };
-    spy::leaving(polygon(&plane, &[]), surface, &ray, hit, None)
+    spy::leaving(polygon(&plane, &[]), surface, &ray, hit)
 }
 
 fn shipped<S: Number>(incoming: Vec3<S>, normal: Vec3<S>) -> Vec3<S> {
