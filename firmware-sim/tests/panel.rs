@@ -154,11 +154,38 @@ fn it_tells_what_the_overlay_does() {
 fn what_is_wrong_is_told_and_nothing_is_written() {
     let folder = TempDir::new().unwrap();
     let fails = |line, code| panel(folder.path(), line).assert().code(code).stdout_eq("");
-    fails("missing.scene", 1).stderr_eq(str![""]);
-    fails("a.scene --panel 320", 2).stderr_eq(str![""]);
-    fails("a.scene --panel 9999x9999", 2).stderr_eq(str![""]);
-    fails("a.ppm -o a.ppm", 2).stderr_eq(str![""]);
-    fails("a.scene --color cmyk", 2).stderr_eq(str![""]);
-    fails("a.scene -o missing/a.png", 1).stderr_eq(str![""]);
+    fails("missing.scene", 1).stderr_eq(str![[r#"
+error: missing.scene: no such file
+
+"#]]);
+    fails("a.scene --panel 320", 2).stderr_eq(str![[r#"
+error: invalid value '320' for '--panel <WxH>': expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535
+
+For more information, try '--help'.
+
+"#]]);
+    fails("a.scene --panel 9999x9999", 2).stderr_eq(str![[r#"
+error: a panel of 9999x9999 at --scale 1 is too large: expected at most 67108864 pixels
+
+For more information, try '--help'.
+
+"#]]);
+    fails("a.ppm -o a.ppm", 2).stderr_eq(str![[r#"
+error: a.ppm is the scene itself
+
+For more information, try '--help'.
+
+"#]]);
+    fails("a.scene --color cmyk", 2).stderr_eq(str![[r#"
+error: invalid value 'cmyk' for '--color <KIND>'
+  [possible values: rgb565, rgb888, gray8, bw]
+
+For more information, try '--help'.
+
+"#]]);
+    fails("a.scene -o missing/a.png", 1).stderr_eq(str![[r#"
+error: cannot write missing/a.png: No such file or directory (os error 2)
+
+"#]]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
