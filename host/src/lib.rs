@@ -12,6 +12,7 @@
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
 
 pub mod bake;
+pub mod canvas;
 pub mod check;
 pub mod cli;
 pub mod cost;
