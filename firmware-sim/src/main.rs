@@ -6,6 +6,10 @@
 #[cfg(target_os = "none")]
 mod board;
 
+// Linked for its names, which are those of the compiler's routines.
+#[cfg(all(target_os = "none", feature = "fast-soft-float"))]
+use octray_soft_float as _;
+
 /// The baked scene.
 #[cfg(target_os = "none")]
 #[allow(dead_code, unreachable_pub, reason = "written for any program")]

@@ -9,6 +9,7 @@ mod diff;
 mod generate;
 mod measure;
 mod render;
+mod schedule;
 mod stability;
 mod value;
 
@@ -18,6 +19,7 @@ pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use measure::MeasureArgs;
 pub use render::RenderArgs;
+pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
 
 use clap::{Parser, Subcommand};
@@ -44,6 +46,8 @@ pub enum Command {
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Simulate how well a picture is shared among any number of processors
+    Schedule(ScheduleArgs),
     /// Measure what pictures cost on small targets, in an emulator
     Measure(MeasureArgs),
     /// Show where methods hold, degrade and break, in every arithmetic

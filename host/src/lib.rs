@@ -5,7 +5,7 @@
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
-//! - [`cost`], [`simulate`]: what parts of a picture cost to trace, and how many processors would share that
+//! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
@@ -36,6 +36,7 @@ pub mod simulate;
 pub mod stability;
 pub mod stats;
 pub mod summary;
+pub mod sweep;
 pub mod threads;
 pub mod trace;
 
@@ -79,6 +80,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Generate(args) => generate::run(&args.job(), &interrupt),
         Command::Diff(args) => diff::run(&args.job(), &interrupt),
         Command::Measure(args) => measure::run(&args.job()?, &interrupt),
+        Command::Schedule(args) => sweep::run(&args.job(), &interrupt),
         Command::Stability(args) => stability::run(&args.job(), &interrupt),
     }
 }

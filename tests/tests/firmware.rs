@@ -88,6 +88,10 @@ fn root() -> &'static Path {
 
 /// Builds the firmware; any warning fails the test.
 fn build(board: Board, job: Job) -> PathBuf {
+    build_with(board, job, &[])
+}
+
+fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     let (width, height) = job.size;
     let output = Command::new(env!("CARGO"))
@@ -100,6 +104,7 @@ fn build(board: Board, job: Job) -> PathBuf {
             "firmware",
         ])
         .args(["--target", board.target])
+        .args(arguments)
         .env("CARGO_TARGET_DIR", &folder)
         .env("OCTRAY_SCENE", job.scene)
         .env("OCTRAY_ARITH", job.arith)
@@ -257,6 +262,34 @@ fn floats_are_the_same_everywhere() {
         tree: "packed",
     };
     same_everywhere(job, &hash_here::<f32>(job));
+}
+
+/// The firmware's own routines for floats and the compiler's agree, where either are used.
+#[test]
+fn emulated_floats_are_the_compilers() {
+    let _alone = alone();
+    let job = Job {
+        scene: "scenes/glass.scene",
+        arith: "f32",
+        size: SMALL,
+        tree: "packed",
+    };
+    let expected = hash_here::<f32>(job);
+    for board in [MICROBIT, BOARDS[1], BOARDS[5]] {
+        if let Some(install) = board.missing() {
+            eprintln!("skipped {board:?}: {install}");
+            continue;
+        }
+        let told = emulate(board, &build_with(board, job, &["--no-default-features"]));
+        assert_eq!(value(&told, "hash"), expected, "{board:?}");
+        let own = build(board, job);
+        let bytes = fs::read(&own).unwrap();
+        let symbols = String::from_utf8_lossy(&bytes);
+        assert!(
+            !symbols.contains("compiler_builtins5float3add"),
+            "{board:?} adds by the compiler's routine"
+        );
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::diff::Share;
 use crate::picture::Target;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use std::num::NonZeroU32;
 use std::str::FromStr;
 
 /// A picture file whose extension names its format.
@@ -22,6 +23,34 @@ pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
 pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
         .map_err(|_| "expected a whole number, at least 1".into())
+}
+
+/// Whole numbers, none of them 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Whole(pub(super) Vec<NonZeroU32>);
+
+/// Whole numbers such as `1,2,7`, or `1..1024`: the first one, doubled until it would pass the last one.
+pub(super) fn doubling(text: &str) -> Result<Whole, String> {
+    let numbers = match text.split_once("..") {
+        Some((first, last)) => {
+            let (first, last) = (
+                positive::<NonZeroU32>(first)?,
+                positive::<NonZeroU32>(last)?,
+            );
+            let next = |n: &NonZeroU32| n.checked_mul(const { NonZeroU32::new(2).unwrap() });
+            std::iter::successors(Some(first), next)
+                .take_while(|n| *n <= last)
+                .collect()
+        }
+        None => text
+            .split(',')
+            .map(positive)
+            .collect::<Result<Vec<_>, _>>()?,
+    };
+    match numbers.iter().all(|n| n.get() <= 65_536) && !numbers.is_empty() {
+        true => Ok(Whole(numbers)),
+        false => Err("expected numbers from 1 to 65536 such as 1,2,7 or 1..1024".into()),
+    }
 }
 
 /// A weight from 0 to 1, as a number or as a fraction such as `1/512`.
@@ -68,6 +97,17 @@ mod tests {
             "", "640", "0x5", "5x0", "65536x1", "1x2x3", "-1x2", "1.5x2", "ax2",
         ] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn lists_of_numbers() {
+        let numbers = |text| doubling(text).map(|list| list.0.iter().map(|n| n.get()).collect());
+        assert_eq!(numbers("1,7,2"), Ok(vec![1, 7, 2]));
+        assert_eq!(numbers("1..9"), Ok(vec![1, 2, 4, 8]));
+        assert_eq!(numbers("3..3"), Ok(vec![3]));
+        for wrong in ["", "0", "1,", "0..4", "4..1", "1..", "99999", "a"] {
+            assert!(doubling(wrong).is_err(), "{wrong}");
         }
     }
 

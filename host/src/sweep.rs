@@ -1,0 +1,157 @@
+//! `octray schedule`: how well a picture is shared, over policies, packets and numbers of processors.
+
+use crate::check;
+use crate::cost::{CostMap, dearest_first};
+use crate::deal::{Deal, Policy};
+use crate::engine;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use crate::output;
+use crate::packets::Shape;
+use crate::simulate::{Machine, Outcome, simulate};
+use comfy_table::{CellAlignment, Table, presets};
+use octray_core::packet::Region;
+use serde::Serialize;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
+
+/// What `octray schedule` was asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepJob {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// Numbers of processors.
+    pub processors: Vec<NonZeroUsize>,
+    /// Shapes of packets.
+    pub shapes: Vec<Shape>,
+    /// Ways to deal them.
+    pub policies: Vec<Policy>,
+    /// Columns and rows; the scene's own if `None`.
+    pub size: Option<(u32, u32)>,
+    /// The arithmetic to trace in.
+    pub arith: Arith,
+    /// The machine.
+    pub machine: Machine,
+    /// Whether to print JSON.
+    pub json: bool,
+}
+
+/// One combination, and what comes of it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Run {
+    /// Who gets what.
+    pub policy: Policy,
+    /// How large packets are.
+    pub packet: Shape,
+    /// How many packets there are.
+    pub packets: usize,
+    /// How many processors.
+    pub processors: NonZeroUsize,
+    /// What comes of it.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// Simulate every combination, and print them or the best.
+///
+/// # Errors
+/// When the scene is refused or does not fit the arithmetic, when interrupted, or when standard output cannot
+/// be written.
+pub fn run(job: &SweepJob, interrupt: &Interrupt) -> Result<(), Error> {
+    let scene = check::read(&job.scene)?;
+    let tree = TreeOptions {
+        kind: Tree::Tight,
+        depth: None,
+        leaf_size: None,
+        arena: None,
+        link: Link::Shape,
+    };
+    let view = ViewOptions {
+        size: job.size,
+        pixels_per_ray: PixelsPerRay::One,
+        samples: 1,
+        max_depth: 8,
+        cut_off: 1.0 / 512.0,
+    };
+    let engine = engine::build(&scene, job.arith, &tree, &view)?;
+    let map = CostMap::probe(&*engine, NonZeroU32::MIN, interrupt)?;
+    let region = Region {
+        columns: 0..engine.built().size.0,
+        rows: engine.built().active.rows.clone(),
+    };
+    let runs = sweep(job, &map, &region, interrupt)?;
+    output::write_stdout(interrupt, |out| match job.json {
+        true => {
+            let total = map.total();
+            let scene = job.scene.display().to_string();
+            let object = serde_json::json!({"scene": scene, "instructions": total, "runs": runs});
+            writeln!(out, "{object}")
+        }
+        false => writeln!(out, "{}", best(job, &runs)),
+    })
+}
+
+/// Simulate every combination.
+fn sweep(
+    job: &SweepJob,
+    map: &CostMap,
+    region: &Region,
+    interrupt: &Interrupt,
+) -> Result<Vec<Run>, Error> {
+    let mut runs = Vec::new();
+    for &packet in &job.shapes {
+        interrupt.check()?;
+        let costs: Vec<f64> = packet.cut(region).map(|part| map.cost(&part)).collect();
+        let order = dearest_first(&costs);
+        for &policy in &job.policies {
+            for &processors in &job.processors {
+                let deal = Deal::new(policy, costs.len(), processors, order.clone());
+                runs.push(Run {
+                    policy,
+                    packet,
+                    packets: costs.len(),
+                    processors,
+                    outcome: simulate(&costs, &deal, &job.machine),
+                });
+            }
+        }
+    }
+    Ok(runs)
+}
+
+/// For each number of processors the best speed-up of each policy, in strips and in tiles, and the packet.
+fn best(job: &SweepJob, runs: &[Run]) -> Table {
+    let mut table = Table::new();
+    let names = job.policies.iter().map(|policy| policy.name());
+    let heading = ["processors", "packets"].into_iter().chain(names);
+    table
+        .load_style(presets::ASCII_MARKDOWN)
+        .set_header(heading);
+    for &processors in &job.processors {
+        for (kind, tiles) in [("strips", false), ("tiles", true)] {
+            let of = |policy| {
+                let fits = |run: &&Run| {
+                    (run.policy, run.processors) == (policy, processors)
+                        && run.packet.columns.is_some() == tiles
+                };
+                let speed = |run: &&Run| run.outcome.speed_up;
+                // Among equals the first, which is the smallest.
+                let runs = runs.iter().filter(fits).rev();
+                runs.max_by(|a, b| speed(a).total_cmp(&speed(b)))
+            };
+            let cell = |policy| {
+                of(policy).map_or(String::new(), |run: &Run| {
+                    format!("{:.2} ({})", run.outcome.speed_up, run.packet)
+                })
+            };
+            let cells = job.policies.iter().map(|policy| cell(*policy));
+            let first = [processors.to_string(), kind.to_owned()];
+            table.add_row(first.into_iter().chain(cells));
+        }
+    }
+    for column in table.column_iter_mut().skip(2) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}

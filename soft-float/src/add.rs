@@ -1,0 +1,99 @@
+//! Sum and difference.
+
+use crate::bits::{
+    INFINITY, NAN, SIGN, exponent, fraction, magnitude, normalise, pack, pack_normal, propagate,
+    shift_sticky, significand,
+};
+
+/// Beyond this distance of the exponents the smaller number is less than half of a last place of
+/// the sum, even of one in the next lower binade.
+const FAR: u32 = 25;
+
+/// `a` + `b`.
+#[inline(always)]
+pub const fn add(a: u32, b: u32) -> u32 {
+    if a << 1 < b << 1 {
+        add_ordered::<true>(b, a)
+    } else {
+        add_ordered::<false>(a, b)
+    }
+}
+
+/// `a` − `b`.
+#[inline(always)]
+pub const fn sub(a: u32, b: u32) -> u32 {
+    add(a, b ^ SIGN)
+}
+
+/// `a` + `b`, where |`a`| ≥ |`b`|; whether they were swapped for that.
+#[inline(always)]
+const fn add_ordered<const SWAPPED: bool>(a: u32, b: u32) -> u32 {
+    let (large, small) = (exponent(a), exponent(b));
+    if large == 255 || small == 0 {
+        return if SWAPPED {
+            add_special(b, a)
+        } else {
+            add_special(a, b)
+        };
+    }
+    let distance = large - small;
+    if distance > FAR {
+        return a;
+    }
+    // One bit less than a significand has leaves room for the carry.
+    let x = significand(a) >> 1;
+    let y = shift_sticky(significand(b) >> 1, distance);
+    let sign = a & SIGN;
+    if (a ^ b) & SIGN == 0 {
+        let sum = x + y;
+        if sum & SIGN == 0 {
+            pack_normal(sign, large, sum << 1)
+        } else if large < 254 {
+            pack_normal(sign, large + 1, sum)
+        } else {
+            sign | INFINITY
+        }
+    } else {
+        let difference = x - y;
+        if difference == 0 {
+            return 0;
+        }
+        let (exponent, m) = normalise(large as i32 + 1, difference);
+        if exponent <= 0 {
+            return pack(sign, exponent, m);
+        }
+        pack_normal(sign, exponent as u32, m)
+    }
+}
+
+/// The sum of any two numbers.
+#[cold]
+#[inline(never)]
+const fn add_special(a: u32, b: u32) -> u32 {
+    if let Some(nan) = propagate(a, b) {
+        return nan;
+    }
+    let (a, b) = if magnitude(a) < magnitude(b) {
+        (b, a)
+    } else {
+        (a, b)
+    };
+    if magnitude(a) == INFINITY {
+        return if a ^ b == SIGN { NAN } else { a };
+    }
+    if magnitude(b) == 0 {
+        // -0 only if both are.
+        return if magnitude(a) == 0 { a & b } else { a };
+    }
+    let ((large, x), (small, y)) = (fraction(a), fraction(b));
+    if large - small > FAR {
+        return a;
+    }
+    let y = shift_sticky(y, large - small);
+    let total = if (a ^ b) & SIGN == 0 { x + y } else { x - y };
+    if total == 0 {
+        return 0;
+    }
+    let (exponent, m) = normalise(large as i32 + 1, total);
+    pack(a & SIGN, exponent, m)
+}

@@ -1,0 +1,26 @@
+//! IEEE 754 binary32 in integers, for cores without a floating-point unit: numbers are their bits,
+//! results are rounded to nearest, ties to even, with subnormal numbers, infinities and -0.
+//!
+//! The first operand that is NaN is the result, made quiet; an invalid operation brings `7fc00000`.
+//! Normal numbers take the short way through every function; a cold one takes the rest.
+//!
+//! With the feature `replace`, and on targets whose compiler calls routines for `f32`, the functions
+//! also have the routines' names, and the linker takes them instead.
+#![no_std]
+
+mod add;
+mod bits;
+mod compare;
+mod convert;
+mod divide;
+mod multiply;
+#[cfg(all(soft_f32, feature = "replace"))]
+mod replace;
+mod root;
+
+pub use add::{add, sub};
+pub use compare::{equal, less, less_equal, unordered};
+pub use convert::{from_i32, from_u32, to_i32, to_u32};
+pub use divide::div;
+pub use multiply::mul;
+pub use root::sqrt;
