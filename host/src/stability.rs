@@ -4,10 +4,10 @@ mod data;
 mod map;
 mod table;
 
+use crate::canvas;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::picture::{RasDepth, Target};
 use crate::progress::Progress;
 use octray_stability::method::Method;
 use octray_stability::survey::{self, survey};

@@ -50,10 +50,7 @@ fn panel(outcome: &Outcome) -> (i32, i32) {
     (width, height)
 }
 
-fn paint<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    outcome: &Outcome,
-) -> Drawn<B> {
+fn paint<B: DrawingBackend>(area: &Area<'_, B>, outcome: &Outcome) -> Drawn<B> {
     let about = &outcome.about;
     let title = format!("{}: {}", about.title, about.axis);
     write(area, &title, (MARGIN, MARGIN), 18, HPos::Left)?;
@@ -108,11 +105,7 @@ fn is_round(x: f64) -> bool {
     x == 0.0 || format!("{x:e}").starts_with("1e")
 }
 
-fn paint_cell<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    cell: &Cell,
-    (x, y): (i32, i32),
-) -> Drawn<B> {
+fn paint_cell<B: DrawingBackend>(area: &Area<'_, B>, cell: &Cell, (x, y): (i32, i32)) -> Drawn<B> {
     let (fill, ink) = colours(cell);
     let frame = [(x, y), (x + CELL.0 - 1, y + CELL.1 - 1)];
     area.draw(&Rectangle::new(frame, fill.filled()))?;
@@ -170,10 +163,7 @@ fn colours(cell: &Cell) -> (RGBColor, RGBColor) {
     (fill, if dark { WHITE } else { BLACK })
 }
 
-fn paint_legend<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    (left, y): (i32, i32),
-) -> Drawn<B> {
+fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) -> Drawn<B> {
     let mut x = left;
     let sample = |state, cause| Cell {
         tally: Default::default(),
