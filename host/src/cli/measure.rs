@@ -1,11 +1,13 @@
 //! Arguments of `octray measure`.
 
 use super::value;
+use crate::canvas;
 use crate::error::Error;
 use crate::job::{Arith, DEEPEST};
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
 use crate::measure::reference::View;
+use crate::picture::Target;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -58,6 +60,9 @@ pub struct MeasureArgs {
     /// Write the results as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Draw costs without and with a floating-point unit: .svg, .png or .ppm
+    #[arg(long, value_name = "FILE")]
+    chart: Option<PathBuf>,
 }
 
 impl MeasureArgs {
@@ -66,7 +71,7 @@ impl MeasureArgs {
     /// # Errors
     /// If a result would replace a scene or the other result.
     pub fn job(self) -> Result<MeasureJob, Error> {
-        for path in self.json.iter().chain(&self.csv) {
+        for path in self.json.iter().chain(&self.csv).chain(&self.chart) {
             if self.scenes.contains(path) {
                 let name = path.display();
                 return Err(Error::Usage(format!("{name} is a scene itself")));
@@ -74,6 +79,11 @@ impl MeasureArgs {
         }
         if self.json.is_some() && self.json == self.csv {
             return Err(Error::Usage("--json and --csv name the same file".into()));
+        }
+        if let Some(path) = &self.chart
+            && !canvas::is_svg(path)
+        {
+            Target::new(path.clone()).map_err(Error::Usage)?;
         }
         let boards = match &*self.targets {
             [] => BOARDS.iter().collect(),
@@ -95,6 +105,7 @@ impl MeasureArgs {
             functions: self.functions,
             json: self.json,
             csv: self.csv,
+            chart: self.chart,
         })
     }
 }

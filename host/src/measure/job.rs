@@ -29,6 +29,8 @@ pub struct MeasureJob {
     pub json: Option<PathBuf>,
     /// Where to write them as comma-separated values.
     pub csv: Option<PathBuf>,
+    /// Where to draw costs without and with a floating-point unit.
+    pub chart: Option<PathBuf>,
 }
 
 /// How firmware is built.
@@ -47,6 +49,10 @@ pub enum TreeKind {
     /// The packed tree, baked.
     #[default]
     Packed,
+    /// The packed tree, built by the device in its memory.
+    Device,
+    /// The packed tree where it pays, none otherwise.
+    Auto,
     /// None: every ray tries every object.
     None,
 }
@@ -67,6 +73,8 @@ impl TreeKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Packed => "packed",
+            Self::Device => "device",
+            Self::Auto => "auto",
             Self::None => "none",
         }
     }
