@@ -8,7 +8,8 @@
 //! | [`hash`] | a display that keeps nothing but the picture's hash |
 //!
 //! The binary `octray-firmware` renders the scene that the build script has baked on Cortex-M and
-//! RISC-V boards, and tells the picture's hash by semihosting.
+//! RISC-V boards, and tells the picture's hash by semihosting. `octray-kernels` calls single operations
+//! of the tracer, for `octray measure --kernels` to count.
 //!
 //! [`DrawTarget`]: embedded_graphics_core::draw_target::DrawTarget
 #![no_std]

@@ -4,7 +4,7 @@
 //! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
 //! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
 //! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
-//! and [`report`] tells it.
+//! and [`report`] tells it. [`kernels`] does the same with single operations.
 
 pub mod board;
 pub mod child;
@@ -13,6 +13,7 @@ pub mod cycles;
 pub mod emulate;
 pub mod frames;
 pub mod job;
+pub mod kernels;
 pub mod memory;
 pub mod reference;
 pub mod report;
@@ -48,6 +49,9 @@ const FIGURES: [&str; 5] = [
 pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.json.iter().chain(&job.csv) {
         output::probe(path)?;
+    }
+    if job.kernels {
+        return kernels::run(job, interrupt);
     }
     let root = Workspace::root()?;
     let scenes = match &*job.scenes {
