@@ -14,9 +14,14 @@ pub type Exact3 = [Exact; 3];
 
 const BITS: usize = 512;
 
-/// The very value of a finite `x`; 0 for any other.
+/// The very value of a finite `x`; the largest `f64` for what is infinite or no number.
 pub fn exact(x: f64) -> Exact {
-    let number = Exact::try_from(x).unwrap_or(Exact::ZERO);
+    let finite = if x.is_nan() {
+        f64::MAX
+    } else {
+        x.clamp(f64::MIN, f64::MAX)
+    };
+    let number = Exact::try_from(finite).unwrap_or(Exact::ZERO);
     number.with_precision(BITS).value()
 }
 

@@ -8,6 +8,7 @@
 //! | [`exact`] | truth: numbers of 512 bits |
 //! | [`number`] | the arithmetics under test |
 //! | [`random`] | cases |
+//! | [`stage`], [`spy`] | shapes one at a time; the rays that the tracer sends on from them |
 //! | [`tally`] | what is measured of a case, and what that is worth: three states |
 //! | [`method`] | a method: its forms, the values swept, the bounds |
 //! | [`sweep`] | the methods, a file each |
@@ -22,6 +23,8 @@ pub mod method;
 pub mod number;
 pub mod random;
 pub mod record;
+pub mod spy;
+pub mod stage;
 pub mod survey;
 pub mod sweep;
 pub mod tally;

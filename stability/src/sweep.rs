@@ -1,7 +1,13 @@
 //! The sweeps, one file for each method.
 
+pub mod cone;
+pub mod glass;
 pub mod ground;
+pub mod mirror;
+pub mod plane;
+pub mod polygon;
 pub mod power;
+pub mod slab;
 pub mod sphere;
 
 use crate::method::Method;
@@ -10,5 +16,14 @@ use crate::method::Method;
 pub static ALL: &[Method] = &[
     Method::of::<sphere::Sphere>(),
     Method::of::<ground::Ground>(),
+    Method::of::<plane::Plane>(),
+    Method::of::<polygon::Polygon>(),
+    Method::of::<slab::Slab>(),
+    Method::of::<cone::Thin>(),
+    Method::of::<cone::Apex>(),
+    Method::of::<cone::Far>(),
+    Method::of::<mirror::Mirror>(),
+    Method::of::<glass::Glass>(),
+    Method::of::<glass::Critical>(),
     Method::of::<power::Power>(),
 ];

@@ -2,11 +2,12 @@
 
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, near, root, sub, times};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
-use crate::number::{self, Number, counted, exactly, floats, slack, span, vector};
+use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
+use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
-use octray_core::shape::{self, Kind, ObjectRef, Outlines, Shapes};
+use octray_core::shape::{self, Kind};
 use octray_core::vec3::Vec3;
 
 /// Rays that pass a sphere's centre at ½ … 2 radii, from a distance of 2 to 10⁷ radii.
@@ -30,6 +31,10 @@ impl Sweep for Sphere {
                 name: "textbook",
                 label: "thesis (2.8): b² − c",
             },
+            Form {
+                name: "twice",
+                label: "closest approach found twice",
+            },
         ],
         bounds: Bounds {
             wrong: Some(bound(0.0, 0.05)),
@@ -40,7 +45,7 @@ impl Sweep for Sphere {
     };
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+        let mut tallies = vec![Tally::default(); 3];
         let mut random = Random::new(1);
         let distance = span::<S>() / 2.0;
         let radius = S::from_f64(distance / value);
@@ -57,7 +62,7 @@ impl Sweep for Sphere {
             let off = random::times(aside, aim * radius.to_f64());
             let origin = random::add(floats(sphere.centre), random::add(back, off));
             let ray = number::ray(origin, direction);
-            compare(&sphere, &ray, &mut tallies, &[stable, textbook]);
+            compare(&sphere, &ray, &mut tallies, &[stable, textbook, twice]);
         }
         tallies
     }
@@ -110,31 +115,9 @@ pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Optio
     })
 }
 
-/// The one sphere as a scene's shapes.
-pub(super) fn shapes<S: Number>(sphere: &[shape::Sphere<S>]) -> Shapes<'_, S> {
-    Shapes {
-        spheres: sphere,
-        triangles: &[],
-        polygons: &[],
-        cones: &[],
-        cuboids: &[],
-        outlines: Outlines {
-            corners: &[],
-            bands: &[],
-            edges: &[],
-        },
-        patches: &[],
-        normals: &[],
-        slack: slack::<S>(),
-    }
-}
-
 /// What octray does.
 pub(super) fn stable<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
-    let shapes = shapes(std::slice::from_ref(sphere));
-    let object = ObjectRef::new(Kind::Sphere, 0);
-    let t = shapes.hit(object, ray, S::MAX)?;
-    Some((t, shapes.contact(object, ray, t).outward))
+    stage::hit(&stage::sphere(sphere), Kind::Sphere, ray, S::MAX)
 }
 
 /// Thesis (2.8). The difference is formed in the wide type, so that fixed point has a chance.
@@ -150,4 +133,29 @@ pub(super) fn textbook<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Op
     let near = b - half_chord;
     let t = if near > S::ZERO { near } else { b + half_chord };
     (t > S::ZERO).then(|| (t, (ray.at(t) - sphere.centre).unit().0))
+}
+
+/// The shipped form with a second step to the closest approach, which takes away what a direction
+/// that is not quite a unit vector left of the first.
+fn twice<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
+    let to_centre = sphere.centre - ray.origin;
+    let first = to_centre.dot(ray.direction);
+    let rest = to_centre - ray.direction * first;
+    let second = rest.dot(ray.direction);
+    let apart = rest - ray.direction * second;
+    let discriminant = S::product(sphere.radius, sphere.radius) - apart.dot_wide(apart);
+    if discriminant < S::product(S::ZERO, S::ZERO) {
+        return None;
+    }
+    let half_chord = S::sqrt_wide(discriminant);
+    let middle = first + second;
+    let near = middle - half_chord;
+    let (t, from_middle) = if near > S::ZERO {
+        (near, second - half_chord)
+    } else {
+        (middle + half_chord, second + half_chord)
+    };
+    // From the first approach on: what is added to it is small.
+    let normal = ray.direction * from_middle - rest;
+    (t > S::ZERO).then(|| (t, normal.unit().0))
 }
