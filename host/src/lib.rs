@@ -9,9 +9,11 @@
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
+//! - [`canvas`]: what charts and maps are drawn on
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
 
 pub mod bake;
+pub mod canvas;
 pub mod check;
 pub mod cli;
 pub mod cost;

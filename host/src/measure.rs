@@ -4,9 +4,11 @@
 //! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
 //! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
 //! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
-//! and [`report`] tells it. [`kernels`] does the same with single operations.
+//! and [`report`] tells it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
+//! [`kernels`] does the same with single operations.
 
 pub mod board;
+pub mod chart;
 pub mod child;
 pub mod count;
 pub mod cycles;
@@ -15,16 +17,19 @@ pub mod frames;
 pub mod job;
 pub mod kernels;
 pub mod memory;
+pub mod ratio;
 pub mod reference;
 pub mod report;
 pub mod row;
 pub mod workspace;
 
+use crate::canvas;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
 use board::Board;
+use chart::Chart;
 use emulate::Emulator;
 use frames::{Bench, Named};
 use job::MeasureJob;
@@ -47,7 +52,7 @@ const FIGURES: [&str; 5] = [
 /// When something is missing, a scene is refused, a result cannot be written, or any combination
 /// failed: then all others have been told.
 pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
-    for path in job.json.iter().chain(&job.csv) {
+    for path in job.json.iter().chain(&job.csv).chain(&job.chart) {
         output::probe(path)?;
     }
     if job.kernels {
@@ -90,6 +95,12 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
     if let Some(path) = &job.csv {
         output::write_file(path, interrupt, |out| report.write_csv(out))?;
+    }
+    if let Some(path) = &job.chart {
+        let chart = Chart::of(&report.rows).ok_or_else(|| {
+            Error::Failed("no core was measured without and with its floating-point unit".into())
+        })?;
+        canvas::write_figure(path, &chart, interrupt)?;
     }
     output::write_stdout(interrupt, |out| {
         out.write_all(report.text(job.functions).as_bytes())

@@ -4,10 +4,10 @@ mod data;
 mod map;
 mod table;
 
+use crate::canvas;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::picture::{RasDepth, Target};
 use crate::progress::Progress;
 use octray_stability::method::Method;
 use octray_stability::survey::{self, survey};
@@ -58,11 +58,10 @@ pub fn run(job: &StabilityJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(folder) = &job.folder {
         for outcome in &survey.outcomes {
             let name = outcome.about.name;
-            let svg = map::svg(outcome)?;
-            let file = folder.join(format!("{name}.svg"));
-            output::write_file(&file, interrupt, |out| out.write_all(svg.as_bytes()))?;
-            let target = Target::new(folder.join(format!("{name}.png"))).map_err(Error::Failed)?;
-            target.write(&map::picture(outcome)?, RasDepth::default(), interrupt)?;
+            for end in ["svg", "png"] {
+                let file = folder.join(format!("{name}.{end}"));
+                canvas::write_figure(&file, &map::Map(outcome), interrupt)?;
+            }
         }
     }
     output::write_stdout(interrupt, |out| {

@@ -1,11 +1,13 @@
 //! Arguments of `octray measure`.
 
 use super::value;
+use crate::canvas;
 use crate::error::Error;
 use crate::job::{Arith, DEEPEST};
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
 use crate::measure::reference::View;
+use crate::picture::Target;
 use clap::{Args, value_parser};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -23,7 +25,7 @@ pub struct MeasureArgs {
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Measure single operations instead of scenes: arithmetic, hit tests, voxel step, shaded light
-    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "tree", "functions"])]
+    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "tree", "functions", "chart"])]
     kernels: bool,
     /// Boards or targets, separated by commas [default: all]
     #[arg(long, value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
@@ -61,6 +63,9 @@ pub struct MeasureArgs {
     /// Write the results as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Draw costs without and with a floating-point unit: .svg, .png or .ppm
+    #[arg(long, value_name = "FILE")]
+    chart: Option<PathBuf>,
 }
 
 impl MeasureArgs {
@@ -69,7 +74,7 @@ impl MeasureArgs {
     /// # Errors
     /// If a result would replace a scene or the other result.
     pub fn job(self) -> Result<MeasureJob, Error> {
-        for path in self.json.iter().chain(&self.csv) {
+        for path in self.json.iter().chain(&self.csv).chain(&self.chart) {
             if self.scenes.contains(path) {
                 let name = path.display();
                 return Err(Error::Usage(format!("{name} is a scene itself")));
@@ -77,6 +82,11 @@ impl MeasureArgs {
         }
         if self.json.is_some() && self.json == self.csv {
             return Err(Error::Usage("--json and --csv name the same file".into()));
+        }
+        if let Some(path) = &self.chart
+            && !canvas::is_svg(path)
+        {
+            Target::new(path.clone()).map_err(Error::Usage)?;
         }
         let boards = match &*self.targets {
             [] => BOARDS.iter().collect(),
@@ -99,6 +109,7 @@ impl MeasureArgs {
             functions: self.functions,
             json: self.json,
             csv: self.csv,
+            chart: self.chart,
         })
     }
 }
@@ -165,6 +176,7 @@ mod tests {
             "--patience 0",
             "--kernels a.scene",
             "--kernels --size 8x8",
+            "--kernels --chart a.svg",
         ] {
             assert!(parse(line).is_err(), "{line}");
         }

@@ -31,6 +31,8 @@ pub struct MeasureJob {
     pub json: Option<PathBuf>,
     /// Where to write them as comma-separated values.
     pub csv: Option<PathBuf>,
+    /// Where to draw costs without and with a floating-point unit.
+    pub chart: Option<PathBuf>,
 }
 
 /// How firmware is built.
@@ -49,6 +51,10 @@ pub enum TreeKind {
     /// The packed tree, baked.
     #[default]
     Packed,
+    /// The packed tree, built by the device in its memory.
+    Device,
+    /// The packed tree where it pays, none otherwise.
+    Auto,
     /// None: every ray tries every object.
     None,
 }
@@ -69,6 +75,8 @@ impl TreeKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Packed => "packed",
+            Self::Device => "device",
+            Self::Auto => "auto",
             Self::None => "none",
         }
     }

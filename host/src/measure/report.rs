@@ -1,5 +1,6 @@
 //! The results as a table to read, as JSON, and as comma-separated values.
 
+use super::ratio;
 use super::row::{Cost, Row};
 use crate::facts::thousands;
 use comfy_table::{CellAlignment, Table, presets};
@@ -101,7 +102,7 @@ impl Report {
 
     /// The table, and the costliest functions of each row.
     pub fn text(&self, functions: usize) -> String {
-        let mut text = frames(&self.rows);
+        let mut text = frames(&self.rows) + &ratio::text(&self.rows);
         for row in self.rows.iter().filter(|_| functions > 0) {
             let Some(all) = row.instructions() else {
                 continue;

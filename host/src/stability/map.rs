@@ -4,16 +4,12 @@
 //! read without its colours.
 
 use super::table::number;
-use crate::error::Error;
-use crate::picture::Picture;
+use crate::canvas::{Area, Drawn, Figure, write};
 use octray_stability::number::ARITHMETICS;
 use octray_stability::survey::{Cell, Outcome};
 use octray_stability::tally::{Cause, State};
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, register_font};
-use std::sync::Once;
+use plotters::style::text_anchor::HPos;
 
 /// Pixels: a cell, the names left of the cells, and the lines of text above and below them.
 const CELL: (i32, i32) = (20, 19);
@@ -21,31 +17,23 @@ const NAMES: i32 = 62;
 const LINE: i32 = 18;
 const MARGIN: i32 = 12;
 
-/// The map as SVG.
-///
-/// # Errors
-/// When it cannot be drawn.
-pub(super) fn svg(outcome: &Outcome) -> Result<String, Error> {
-    let mut text = String::new();
-    draw(
-        &SVGBackend::with_string(&mut text, size(outcome)).into_drawing_area(),
-        outcome,
-    )?;
-    Ok(text)
-}
+/// The map of a method.
+pub(super) struct Map<'a>(pub(super) &'a Outcome);
 
-/// The map in pixels.
-///
-/// # Errors
-/// When it cannot be drawn, or there is no memory for it.
-pub(super) fn picture(outcome: &Outcome) -> Result<Picture, Error> {
-    let (width, height) = size(outcome);
-    let mut bytes = vec![0; 3 * width as usize * height as usize];
-    let backend = BitMapBackend::with_buffer(&mut bytes, (width, height));
-    draw(&backend.into_drawing_area(), outcome)?;
-    let levels = bytes.as_chunks().0.to_vec();
-    Picture::from_levels(width, height, levels)
-        .ok_or_else(|| Error::Failed("a map has lost pixels".into()))
+impl Figure for Map<'_> {
+    fn size(&self) -> (u32, u32) {
+        let (across, down) = panels(self.0);
+        let (width, height) = panel(self.0);
+        let width = (MARGIN + across * width).max(700);
+        (
+            width as u32,
+            (2 * MARGIN + 2 * LINE + 8 + down * height) as u32,
+        )
+    }
+
+    fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B> {
+        paint(area, self.0)
+    }
 }
 
 /// Panels side by side, two to a row.
@@ -62,38 +50,7 @@ fn panel(outcome: &Outcome) -> (i32, i32) {
     (width, height)
 }
 
-fn size(outcome: &Outcome) -> (u32, u32) {
-    let (across, down) = panels(outcome);
-    let (width, height) = panel(outcome);
-    let width = (MARGIN + across * width).max(700);
-    (
-        width as u32,
-        (2 * MARGIN + 2 * LINE + 8 + down * height) as u32,
-    )
-}
-
-type Area<'a, B> = DrawingArea<B, Shift>;
-
-fn draw<B: DrawingBackend>(area: &Area<'_, B>, outcome: &Outcome) -> Result<(), Error> {
-    register();
-    paint(area, outcome).map_err(|cause| Error::Failed(format!("cannot draw a map: {cause}")))
-}
-
-/// The only font there is, so that maps are the same on every machine.
-fn register() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        // It fails only on bytes that are no font.
-        let font = epaint_default_fonts::UBUNTU_LIGHT;
-        let _ = register_font("sans-serif", FontStyle::Normal, font);
-    });
-}
-
-fn paint<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    outcome: &Outcome,
-) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-    area.fill(&WHITE)?;
+fn paint<B: DrawingBackend>(area: &Area<'_, B>, outcome: &Outcome) -> Drawn<B> {
     let about = &outcome.about;
     let title = format!("{}: {}", about.title, about.axis);
     write(area, &title, (MARGIN, MARGIN), 18, HPos::Left)?;
@@ -105,8 +62,7 @@ fn paint<B: DrawingBackend>(
         let corner = (MARGIN + column * width, top + row * height);
         paint_form(area, outcome, form, corner)?;
     }
-    paint_legend(area, (MARGIN, top + down * height))?;
-    area.present()
+    paint_legend(area, (MARGIN, top + down * height))
 }
 
 fn paint_form<B: DrawingBackend>(
@@ -114,7 +70,7 @@ fn paint_form<B: DrawingBackend>(
     outcome: &Outcome,
     form: usize,
     (left, top): (i32, i32),
-) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+) -> Drawn<B> {
     let about = &outcome.about;
     let named = about.forms[form];
     let label = format!("{}: {}", named.name, named.label);
@@ -149,11 +105,7 @@ fn is_round(x: f64) -> bool {
     x == 0.0 || format!("{x:e}").starts_with("1e")
 }
 
-fn paint_cell<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    cell: &Cell,
-    (x, y): (i32, i32),
-) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+fn paint_cell<B: DrawingBackend>(area: &Area<'_, B>, cell: &Cell, (x, y): (i32, i32)) -> Drawn<B> {
     let (fill, ink) = colours(cell);
     let frame = [(x, y), (x + CELL.0 - 1, y + CELL.1 - 1)];
     area.draw(&Rectangle::new(frame, fill.filled()))?;
@@ -211,10 +163,7 @@ fn colours(cell: &Cell) -> (RGBColor, RGBColor) {
     (fill, if dark { WHITE } else { BLACK })
 }
 
-fn paint_legend<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    (left, y): (i32, i32),
-) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) -> Drawn<B> {
     let mut x = left;
     let sample = |state, cause| Cell {
         tally: Default::default(),
@@ -237,17 +186,4 @@ fn paint_legend<B: DrawingBackend>(
         x += CELL.0 + 16 + 6 * text.len() as i32;
     }
     Ok(())
-}
-
-fn write<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    text: &str,
-    place: (i32, i32),
-    height: i32,
-    across: HPos,
-) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-    let style = ("sans-serif", height)
-        .into_text_style(area)
-        .pos(Pos::new(across, VPos::Top));
-    area.draw(&Text::new(text, place, style))
 }
