@@ -3,6 +3,7 @@
 
 #[cfg(target_arch = "arm")]
 mod cortex_m;
+mod marks;
 #[cfg(target_arch = "riscv32")]
 mod riscv;
 mod stack;
@@ -10,12 +11,12 @@ mod tell;
 
 use crate::baked::{CUT_OFF, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, NEEDS, RAYS, S, SCENE, WIDTH};
 use core::convert::Infallible;
-use core::panic::PanicInfo;
 use embedded_graphics_core::Pixel;
 use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Size};
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
+use marks::{octray_pause, octray_resume};
 use octray_core::octree::Accelerator;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_firmware_sim::hash::HashPanel;
@@ -150,25 +151,4 @@ impl DrawTarget for Panel {
         octray_resume();
         drawn
     }
-}
-
-/// From here on instructions belong to the frame: a mark for an emulator's plugin.
-#[unsafe(no_mangle)]
-#[inline(never)]
-extern "C" fn octray_resume() {
-    // The barrier keeps it from being folded with `octray_pause`.
-    core::hint::black_box(1u32);
-}
-
-/// From here on they do not.
-#[unsafe(no_mangle)]
-#[inline(never)]
-extern "C" fn octray_pause() {
-    core::hint::black_box(2u32);
-}
-
-#[panic_handler]
-fn panic(_: &PanicInfo<'_>) -> ! {
-    tell::text("panic\n");
-    exit(101)
 }

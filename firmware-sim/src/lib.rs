@@ -10,7 +10,8 @@
 //!
 //! The binary `octray-firmware` renders the scene that the build script has baked on Cortex-M and
 //! RISC-V boards, and tells the picture's hash by semihosting. Where there is an operating system, it
-//! is the panel simulator: it reads any scene, and shows what a panel would.
+//! is the panel simulator: it reads any scene, and shows what a panel would. `octray-kernels` calls
+//! single operations of the tracer, for `octray measure --kernels` to count.
 //!
 //! [`DrawTarget`]: embedded_graphics_core::draw_target::DrawTarget
 #![no_std]

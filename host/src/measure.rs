@@ -5,6 +5,7 @@
 //! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
 //! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
 //! and [`report`] tells it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
+//! [`kernels`] does the same with single operations.
 
 pub mod board;
 pub mod chart;
@@ -14,6 +15,7 @@ pub mod cycles;
 pub mod emulate;
 pub mod frames;
 pub mod job;
+pub mod kernels;
 pub mod memory;
 pub mod ratio;
 pub mod reference;
@@ -52,6 +54,9 @@ const FIGURES: [&str; 5] = [
 pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.json.iter().chain(&job.csv).chain(&job.chart) {
         output::probe(path)?;
+    }
+    if job.kernels {
+        return kernels::run(job, interrupt);
     }
     let root = Workspace::root()?;
     let scenes = match &*job.scenes {

@@ -140,3 +140,47 @@ fn a_run_that_fails_is_never_a_number() {
         assert!(row.contains(",,,,,,,"), "{size}: {row}");
     }
 }
+
+#[test]
+fn kernels_are_measured_and_the_same_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name| folder.path().join(name);
+    let mut results = Vec::new();
+    for name in ["a.json", "b.json"] {
+        let line = format!(
+            "--kernels --targets m3 --arith f32,auto --json {}",
+            file(name).display()
+        );
+        let Some(output) = run(&line) else { return };
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        results.push((output.stdout, fs::read(file(name)).unwrap()));
+    }
+    assert_eq!(results[0], results[1]);
+    let report: serde_json::Value = serde_json::from_slice(&results[0].1).unwrap();
+    let rows = report["rows"].as_array().unwrap();
+    let row = |arith: &str, kernel: &str| {
+        let found = |row: &&serde_json::Value| row["arith"] == arith && row["kernel"] == kernel;
+        rows.iter().find(found).unwrap()
+    };
+    let cost = |arith, kernel| row(arith, kernel)["per_call"].as_f64().unwrap();
+    // One instruction of the core, if the call is taken off.
+    assert_eq!(cost("auto", "add"), 1.0);
+    for arith in ["f32", "auto"] {
+        assert!(cost(arith, "add") < cost(arith, "div"));
+        assert!(cost(arith, "mul") < cost(arith, "dot"));
+        assert!(cost(arith, "dot") < cost(arith, "normalise"));
+        assert!(cost(arith, "hit sphere") < cost(arith, "hit cone"));
+        assert!(cost(arith, "normalise") < cost(arith, "shaded light"));
+        assert!(cost(arith, "voxel step") > 50.0);
+        // The inputs do what they are for: some rays hit and some miss, in either arithmetic.
+        for shape in ["sphere", "triangle", "polygon", "cone", "box"] {
+            let row = row(arith, &format!("hit {shape}"));
+            let [hits, calls] = ["hits", "calls"].map(|name| row[name].as_u64().unwrap());
+            assert!(hits > calls / 5 && hits < calls * 4 / 5, "{shape}: {hits}");
+        }
+    }
+    for kernel in ["add", "dot", "hit sphere", "hit box", "shaded light"] {
+        assert!(cost("auto", kernel) < cost("f32", kernel), "{kernel}");
+    }
+}

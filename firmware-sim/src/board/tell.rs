@@ -1,5 +1,8 @@
-//! Text and numbers by semihosting, without the formatting machinery, which would not fit.
+//! Text and numbers by semihosting, without the formatting machinery, which would not fit; and that
+//! the program panicked.
 
+use core::panic::PanicInfo;
+use semihosting::process::exit;
 use semihosting::sys::arm_compat::sys_writec;
 
 /// Tells a text.
@@ -34,4 +37,10 @@ pub(super) fn hexadecimal(number: u64) {
         let digit = (number >> (4 * nibble)) as u8 & 15;
         sys_writec(digit + if digit < 10 { b'0' } else { b'a' - 10 });
     }
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    text("panic\n");
+    exit(101)
 }

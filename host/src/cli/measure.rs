@@ -24,6 +24,9 @@ pub struct MeasureArgs {
     /// Scene files [default: the five figures]
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    /// Measure single operations instead of scenes: arithmetic, hit tests, voxel step, shaded light
+    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "tree", "functions", "chart"])]
+    kernels: bool,
     /// Boards or targets, separated by commas [default: all]
     #[arg(long, value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
     targets: Vec<Vec<&'static Board>>,
@@ -90,6 +93,7 @@ impl MeasureArgs {
             named => once(named.iter().flatten().copied(), |a, b| a.name == b.name),
         };
         Ok(MeasureJob {
+            kernels: self.kernels,
             scenes: self.scenes,
             boards,
             ariths: once(self.arith, |a, b| a == b),
@@ -145,7 +149,7 @@ mod tests {
     #[test]
     fn the_defaults_are_the_documented_ones() {
         let job = parse("").unwrap().job().unwrap();
-        assert!(job.scenes.is_empty());
+        assert!(job.scenes.is_empty() && !job.kernels);
         assert_eq!(job.boards.len(), BOARDS.len());
         assert_eq!(job.ariths, [Arith::F32, Arith::Auto]);
         assert_eq!((job.view.size, job.view.max_depth), ((64, 48), 8));
@@ -170,6 +174,9 @@ mod tests {
             "--tree plain",
             "--optimize all",
             "--patience 0",
+            "--kernels a.scene",
+            "--kernels --size 8x8",
+            "--kernels --chart a.svg",
         ] {
             assert!(parse(line).is_err(), "{line}");
         }

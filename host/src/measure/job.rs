@@ -11,6 +11,8 @@ use std::time::Duration;
 /// Everything `octray measure` was asked for.
 #[derive(Clone, Debug)]
 pub struct MeasureJob {
+    /// Single operations instead of scenes.
+    pub kernels: bool,
     /// The scene files; the five figures if there is none.
     pub scenes: Vec<PathBuf>,
     /// The boards.

@@ -1,0 +1,139 @@
+//! Calls every kernel on all its inputs, by an address that the compiler does not know, and tells
+//! what the counts alone do not say: the number format, hits, and steps.
+
+#[cfg(target_arch = "arm")]
+#[path = "../board/cortex_m.rs"]
+mod cortex_m;
+mod inputs;
+mod kernels;
+#[path = "../board/marks.rs"]
+mod marks;
+#[cfg(target_arch = "riscv32")]
+#[path = "../board/riscv.rs"]
+mod riscv;
+#[path = "../board/tell.rs"]
+#[expect(dead_code, reason = "pictures have a hash")]
+mod tell;
+
+use crate::baked::{S, SCENE, TREE};
+use core::hint::black_box;
+use inputs::{NARROW, WIDE, aimed, numbers, pairs, vectors};
+use kernels::{Shapes, Walk};
+use octray_core::octree::{Accelerator, Packed, PackedStack};
+use octray_core::ray::Ray;
+use octray_core::shape::{Kind, ObjectRef};
+use octray_firmware_sim::tally::Tally;
+use semihosting::process::exit;
+
+/// Calls, tells, exits.
+fn run() -> ! {
+    marks::octray_resume();
+    arithmetic();
+    let hits = Kind::ALL.map(shape);
+    let steps = tree();
+    lights();
+    marks::octray_pause();
+    tell::text("arith ");
+    tell::text(crate::baked::ARITH);
+    for (name, hits) in ["sphere", "triangle", "polygon", "cone", "box"]
+        .iter()
+        .zip(hits)
+    {
+        tell::number(name, hits);
+    }
+    tell::number("steps", steps);
+    tell::text("\n");
+    exit(0)
+}
+
+/// Operations on numbers and vectors.
+fn arithmetic() {
+    let binary: [fn(S, S) -> S; 4] = [
+        kernels::kernel_empty,
+        kernels::kernel_add,
+        kernels::kernel_mul,
+        kernels::kernel_div,
+    ];
+    for kernel in binary.map(black_box) {
+        for (a, b) in pairs() {
+            black_box(kernel(black_box(a), black_box(b)));
+        }
+    }
+    let unary: [fn(S) -> S; 2] = [kernels::kernel_sqrt, kernels::kernel_inverse_sqrt];
+    for kernel in unary.map(black_box) {
+        for x in numbers() {
+            black_box(kernel(black_box(x)));
+        }
+    }
+    let (dot, normalise) = (
+        kernels::kernel_dot as kernels::Dot,
+        kernels::kernel_normalise as kernels::Unit,
+    );
+    let (dot, normalise) = (black_box(dot), black_box(normalise));
+    for (a, b) in vectors() {
+        black_box(dot(black_box(&a), black_box(&b)));
+        black_box(normalise(black_box(&a)));
+    }
+}
+
+/// The hit test of one kind of shape, on rays of which some hit; how many.
+fn shape(kind: Kind) -> u32 {
+    let kernel: fn(&Shapes, usize, &Ray<S>) -> Option<S> = match kind {
+        Kind::Sphere => kernels::kernel_sphere,
+        Kind::Triangle => kernels::kernel_triangle,
+        Kind::Polygon => kernels::kernel_polygon,
+        Kind::Cone => kernels::kernel_cone,
+        Kind::Cuboid => kernels::kernel_box,
+    };
+    let kernel = black_box(kernel);
+    let shapes = black_box(&SCENE.shapes);
+    let mut hits = 0;
+    for i in 0..shapes.count(kind) {
+        for ray in aimed(ObjectRef::new(kind, i as u32), WIDE) {
+            hits += u32::from(kernel(shapes, black_box(i), black_box(&ray)).is_some());
+        }
+    }
+    hits
+}
+
+/// Walks through the tree that come to no object, and the same as far as the root; the steps beyond it.
+fn tree() -> u32 {
+    let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
+    let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
+    // A node is two words and two for each child; the upper bits of the second tell how many.
+    let size = tree.words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
+    let trunk = Packed {
+        words: tree.words.get(..size as usize).unwrap_or_default(),
+        ..*tree
+    };
+    let trunk = black_box(&trunk);
+    let mut stack = PackedStack::default();
+    let mut steps = 0;
+    for ray in scene.shapes.refs().flat_map(|object| aimed(object, WIDE)) {
+        let mut tally = Tally::default();
+        tree.nearest(scene, &ray, &mut stack, &mut tally);
+        if tally.tests == 0 && tally.steps > 1 {
+            steps += tally.steps - 1;
+            black_box(walk(tree, black_box(&ray), &mut stack));
+            black_box(root(trunk, black_box(&ray), &mut stack));
+        }
+    }
+    steps
+}
+
+/// Surfaces in the light of one lamp and of two.
+fn lights() {
+    let kernels = [
+        kernels::kernel_one_light as kernels::Lit,
+        kernels::kernel_two_lights as kernels::Lit,
+    ];
+    let [one, two] = kernels.map(black_box);
+    let scene = black_box(&SCENE);
+    for i in 0..scene.shapes.count(Kind::Sphere) {
+        let sphere = ObjectRef::new(Kind::Sphere, i as u32);
+        for ray in aimed(sphere, NARROW) {
+            black_box(one(scene, sphere, black_box(&ray)));
+            black_box(two(scene, sphere, black_box(&ray)));
+        }
+    }
+}

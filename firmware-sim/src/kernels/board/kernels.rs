@@ -1,0 +1,166 @@
+//! The kernels. Each is a function of its own, found by its name. Numbers come and go in registers,
+//! vectors and rays in memory.
+
+use crate::baked::{NEEDS, S, SCENE};
+use core::hint::black_box;
+use octray_core::observe::Observer;
+use octray_core::octree::{Accelerator, Hit, Packed, PackedStack};
+use octray_core::ray::Ray;
+use octray_core::scalar::Scalar;
+use octray_core::scene;
+use octray_core::shape::{self, Kind, ObjectRef};
+use octray_core::trace::{Tracer, Workspace};
+use octray_core::vec3::Vec3;
+
+pub(super) type Scene = scene::Scene<'static, S, NEEDS>;
+pub(super) type Shapes = shape::Shapes<'static, S, NEEDS>;
+pub(super) type Dot = fn(&Vec3<S>, &Vec3<S>) -> S;
+pub(super) type Unit = fn(&Vec3<S>) -> Vec3<S>;
+pub(super) type Found = Option<Hit<S>>;
+pub(super) type Walk = fn(&Packed<'_>, &Ray<S>, &mut PackedStack) -> Found;
+pub(super) type Lit = fn(&Scene, ObjectRef, &Ray<S>) -> Vec3<S>;
+
+/// Nothing but the return.
+#[inline(never)]
+pub(super) fn kernel_empty(a: S, _: S) -> S {
+    a
+}
+
+#[inline(never)]
+pub(super) fn kernel_add(a: S, b: S) -> S {
+    a + b
+}
+
+#[inline(never)]
+pub(super) fn kernel_mul(a: S, b: S) -> S {
+    a * b
+}
+
+#[inline(never)]
+pub(super) fn kernel_div(a: S, b: S) -> S {
+    a.quotient(b)
+}
+
+#[inline(never)]
+pub(super) fn kernel_sqrt(x: S) -> S {
+    x.sqrt()
+}
+
+#[inline(never)]
+pub(super) fn kernel_inverse_sqrt(x: S) -> S {
+    S::ONE.quotient(x.sqrt())
+}
+
+#[inline(never)]
+pub(super) fn kernel_dot(a: &Vec3<S>, b: &Vec3<S>) -> S {
+    a.dot(*b)
+}
+
+#[inline(never)]
+pub(super) fn kernel_normalise(v: &Vec3<S>) -> Vec3<S> {
+    v.unit().0
+}
+
+#[inline(never)]
+pub(super) fn kernel_sphere(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
+    hit(shapes, Kind::Sphere, i, ray)
+}
+
+#[inline(never)]
+pub(super) fn kernel_triangle(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
+    hit(shapes, Kind::Triangle, i, ray)
+}
+
+#[inline(never)]
+pub(super) fn kernel_polygon(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
+    hit(shapes, Kind::Polygon, i, ray)
+}
+
+#[inline(never)]
+pub(super) fn kernel_cone(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
+    hit(shapes, Kind::Cone, i, ray)
+}
+
+#[inline(never)]
+pub(super) fn kernel_box(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
+    hit(shapes, Kind::Cuboid, i, ray)
+}
+
+#[inline(always)]
+fn hit(shapes: &Shapes, kind: Kind, i: usize, ray: &Ray<S>) -> Option<S> {
+    shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.reach)
+}
+
+/// A search from end to end. The barrier, and the other's, keep the two from being one function.
+#[inline(never)]
+pub(super) fn kernel_walk(tree: &Packed<'_>, ray: &Ray<S>, stack: &mut PackedStack) -> Found {
+    black_box(1u32);
+    tree.nearest(&SCENE, ray, stack, &mut ())
+}
+
+/// The same, for a tree of which there is nothing but the root.
+#[inline(never)]
+pub(super) fn kernel_root(tree: &Packed<'_>, ray: &Ray<S>, stack: &mut PackedStack) -> Found {
+    black_box(2u32);
+    tree.nearest(&SCENE, ray, stack, &mut ())
+}
+
+/// The light of a surface with the first of the scene's lights.
+#[inline(never)]
+pub(super) fn kernel_one_light(scene: &Scene, object: ObjectRef, ray: &Ray<S>) -> Vec3<S> {
+    lit(scene, 1, object, ray)
+}
+
+/// The same with two.
+#[inline(never)]
+pub(super) fn kernel_two_lights(scene: &Scene, object: ObjectRef, ray: &Ray<S>) -> Vec3<S> {
+    lit(scene, 2, object, ray)
+}
+
+#[inline(never)]
+fn lit(scene: &Scene, lights: usize, object: ObjectRef, ray: &Ray<S>) -> Vec3<S> {
+    let lights = scene.lights.get(..lights).unwrap_or_default();
+    let tracer = Tracer {
+        scene: &Scene { lights, ..*scene },
+        accelerator: &Alone(object),
+        max_depth: 0,
+        cut_off: S::ZERO,
+    };
+    let mut workspace = Workspace {
+        rays: &mut [],
+        stack: &mut (),
+        blockers: &mut [],
+    };
+    tracer.radiance(*ray, &mut workspace, &mut ())
+}
+
+/// One object that nothing shadows.
+struct Alone(ObjectRef);
+
+impl Accelerator<S, NEEDS> for Alone {
+    type Stack = ();
+
+    fn nearest<O: Observer>(
+        &self,
+        scene: &scene::Scene<'_, S, NEEDS>,
+        ray: &Ray<S>,
+        (): &mut (),
+        _: &mut O,
+    ) -> Option<Hit<S>> {
+        let t = scene.shapes.hit(self.0, ray, scene.reach)?;
+        Some(Hit { t, object: self.0 })
+    }
+
+    // The ray is made, though nobody follows it.
+    fn any_hit<O: Observer>(
+        &self,
+        _: &scene::Scene<'_, S, NEEDS>,
+        ray: &Ray<S>,
+        limit: S,
+        (): &mut (),
+        _: &mut O,
+    ) -> Option<ObjectRef> {
+        black_box((ray, limit));
+        None
+    }
+}
