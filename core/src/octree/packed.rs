@@ -1,4 +1,4 @@
-//! The tight tree in a fifth of the memory, walked in 16-bit integers whatever the arithmetic: for
+//! The tight tree in less than a quarter of the memory, walked in 16-bit integers whatever the arithmetic: for
 //! targets with little memory, no floating-point unit, or no wide multiplication.
 //!
 //! Coordinates are on the *grid*: [`Scalar::grid`] maps a scene's numbers to integers whose
@@ -138,8 +138,8 @@ struct Builder<'b> {
 }
 
 impl Builder<'_> {
-    /// Splits what is below the root breadth first. Until it is its turn, a child's two words hold its range of objects,
-    /// so that no other memory is needed.
+    /// Splits what is below the root breadth first. Until it is its turn, a child's two words hold
+    /// its range of objects, so that no other memory is needed.
     fn grow(&mut self, deepest: u32, summary: &mut Summary) {
         let (mut at, mut depth, mut level_end) = (0, 1, self.used);
         while let Some(header) = Header::read(self.words, at) {

@@ -10,7 +10,7 @@ pub(super) fn whole<const BITS: u32>(x: f32) -> i32 {
     return by_shift::<BITS>(x);
 }
 
-/// Beyond the range it gives some number, as anything would.
+/// 0 beyond the range, where the product saturates: coordinates and directions never are.
 #[cfg(any(test, octray_soft_float))]
 #[inline(always)]
 fn by_shift<const BITS: u32>(x: f32) -> i32 {

@@ -23,7 +23,7 @@ pub(crate) fn leading_zeros_64(x: u64) -> u32 {
 
 #[cfg(any(test, octray_no_clz))]
 mod by_steps {
-    /// Five comparisons; the last, of two bits, is a lookup in a word.
+    /// Three comparisons, each halving what is left; the last four bits are looked up in a word.
     #[inline(always)]
     pub(crate) fn leading_zeros(x: u32) -> u32 {
         let (mut x, mut zeros) = (x, 0);
