@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::job::{Arith, DEEPEST};
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
+use crate::measure::ratio::CORES;
 use crate::measure::reference::View;
 use crate::picture::Target;
 use clap::{Args, value_parser};
@@ -88,10 +89,21 @@ impl MeasureArgs {
         {
             Target::new(path.clone()).map_err(Error::Usage)?;
         }
-        let boards = match &*self.targets {
+        let boards: Vec<&Board> = match &*self.targets {
             [] => BOARDS.iter().collect(),
             named => once(named.iter().flatten().copied(), |a, b| a.name == b.name),
         };
+        if self.chart.is_some() {
+            if self.chart == self.csv || self.chart == self.json {
+                let why = "--chart names the file of another result";
+                return Err(Error::Usage(why.into()));
+            }
+            let measured = |name: &str| boards.iter().any(|board| board.name == name);
+            if !CORES.iter().any(|(a, b)| measured(a) && measured(b)) {
+                let why = "--chart needs m4 and m4f, or rv32imac and rv32imafc, among the targets";
+                return Err(Error::Usage(why.into()));
+            }
+        }
         Ok(MeasureJob {
             kernels: self.kernels,
             scenes: self.scenes,
@@ -180,7 +192,13 @@ mod tests {
         ] {
             assert!(parse(line).is_err(), "{line}");
         }
-        for line in ["a --json a", "a --json b --csv b"] {
+        for line in [
+            "a --json a",
+            "a --json b --csv b",
+            "a --csv b.svg --chart b.svg",
+            "a --chart b.txt",
+            "a --targets m3,m4 --chart b.svg",
+        ] {
             let error = parse(line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{line}");
         }

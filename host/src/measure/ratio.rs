@@ -94,16 +94,15 @@ fn without_and_with(pairs: &[Pair<'_>], (without, with): (&str, &str)) -> String
 
 /// On each board the geometric mean, over the scenes, of `f32` over the fixed point that is chosen.
 fn float_and_fixed(rows: &[Row]) -> String {
-    let mut boards: Vec<&str> = rows.iter().map(|row| row.board.name).collect();
-    boards.dedup();
-    let mut seen: Vec<&str> = Vec::new();
+    let mut boards: Vec<&str> = Vec::new();
+    for row in rows {
+        if !boards.contains(&row.board.name) {
+            boards.push(row.board.name);
+        }
+    }
     let mut table = table(&["board", "f32 / fixed", "least PSNR of fixed, dB"]);
     left(&mut table, 1);
     for board in boards {
-        if seen.contains(&board) {
-            continue;
-        }
-        seen.push(board);
         let of = |arith| {
             (rows.iter())
                 .filter(move |row| row.board.name == board && row.arith == arith)
