@@ -1,0 +1,107 @@
+//! Small targets, from the newest record of `octray measure` that comes with octray: table III, and sizes.
+
+use super::page::{self, Section, table};
+use crate::error::Error;
+use crate::facts::thousands;
+use crate::tables::emulated::{self, RECORD, RECORD_CHART, RECORD_NAME};
+use crate::tables::text;
+use crate::tables::thesis::Thesis;
+use maud::html;
+use serde::Deserialize;
+
+/// The columns of a record that are shown.
+#[derive(Debug, Deserialize)]
+struct Row {
+    scene: String,
+    board: String,
+    arith: String,
+    format: String,
+    per_pixel: Option<f64>,
+    flash: Option<u64>,
+    ram: Option<u64>,
+    stack: Option<u64>,
+    psnr: Option<f64>,
+    commit: String,
+}
+
+/// Table III today, and what programs need.
+///
+/// # Errors
+/// [`Error::Failed`] if the record is none.
+pub(super) fn sections() -> Result<Vec<Section>, Error> {
+    let rows = read(RECORD).map_err(|cause| Error::Failed(format!("{RECORD_NAME}: {cause}")))?;
+    let commit = rows.first().map_or("", |row| &row.commit);
+    let three = emulated::three(None)?.beside(&Thesis::known()?);
+    let measured = format!("{RECORD_NAME}, measured at commit {commit}");
+    let units = Section {
+        id: "units".into(),
+        title: "Table III, today: without and with a floating-point unit".into(),
+        body: html! {
+            (page::chart(RECORD_CHART, "instructions per pixel without and with a floating-point unit"))
+            pre { (text::of(&three)) }
+        },
+        commands: vec![
+            "octray tables III".into(),
+            "octray measure --arith f32,approx2,auto --chart table-3.svg".into(),
+        ],
+    };
+    let sizes = Section {
+        id: "sizes".into(),
+        title: "What programs need on small targets".into(),
+        body: html! {
+            p { "Instructions per pixel, bytes, and decibels against 64-bit floats, from " (measured) "." }
+            (table(&HEAD.map(String::from), &rows.iter().map(cells).collect::<Vec<_>>()))
+        },
+        commands: vec!["octray measure --arith f32,approx2,auto".into()],
+    };
+    Ok(vec![units, sizes])
+}
+
+const HEAD: [&str; 8] = [
+    "scene",
+    "board",
+    "arithmetic",
+    "per pixel",
+    "flash",
+    "RAM",
+    "stack",
+    "PSNR",
+];
+
+fn read(text: &str) -> Result<Vec<Row>, csv::Error> {
+    csv::Reader::from_reader(text.as_bytes())
+        .deserialize()
+        .collect()
+}
+
+fn cells(row: &Row) -> Vec<String> {
+    let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
+    let arith = match row.format == row.arith {
+        true => row.arith.clone(),
+        false => format!("{}: {}", row.arith, row.format),
+    };
+    vec![
+        row.scene.clone(),
+        row.board.clone(),
+        arith,
+        whole(row.per_pixel.map(|n| n.round() as u64)),
+        whole(row.flash),
+        whole(row.ram),
+        whole(row.stack),
+        row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_record_that_comes_with_octray_is_shown() {
+        let sections = sections().unwrap();
+        let text: String = sections.iter().map(|s| s.body.0.clone()).collect();
+        for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "not at hand"] {
+            assert!(text.contains(expected), "{expected}");
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! A scene in every arithmetic, side by side, each beside where it differs from the picture in 64-bit floats.
+
+use super::ReportJob;
+use super::page::{self, Section, quoted};
+use crate::error::Error;
+use crate::heat;
+use crate::interrupt::Interrupt;
+use crate::job::Arith;
+use crate::measure::frames::Named;
+use crate::measure::reference::{self, View};
+use crate::metric::Difference;
+use crate::progress::Progress;
+use crate::render::Traced;
+use maud::{Markup, html};
+use std::path::Path;
+
+/// The most bounces, as `octray render` has it.
+const MAX_DEPTH: u32 = 8;
+
+/// The section of a scene.
+///
+/// # Errors
+/// When interrupted, or if the scene cannot be rendered even in 64-bit floats.
+pub(super) fn section(
+    scene: &Named,
+    path: &Path,
+    job: &ReportJob,
+    progress: &Progress,
+    interrupt: &Interrupt,
+) -> Result<Section, Error> {
+    let view = View {
+        size: job.size,
+        max_depth: MAX_DEPTH,
+    };
+    let render = |arith| reference::render(scene.scene(), arith, view, interrupt);
+    let exact = render(Arith::F64)?;
+    let mut figures = Vec::new();
+    for &arith in &job.ariths {
+        figures.push(match render(arith) {
+            Err(Error::Interrupted) => return Err(Error::Interrupted),
+            Err(refused) => html! {
+                figure { figcaption { strong { (arith.name()) } ": " (refused) } }
+            },
+            Ok(traced) => figure(arith, &traced, &exact)?,
+        });
+        progress.step();
+    }
+    let (width, height) = job.size;
+    let file = quoted(path);
+    let name = scene.name();
+    let render = |arith: &str| {
+        format!(
+            "octray render {file} --arith {arith} --size {width}x{height} -o {name}-{arith}.png"
+        )
+    };
+    let other = "i16f16";
+    Ok(Section {
+        id: format!("pictures-{name}"),
+        title: format!("{name} in every arithmetic"),
+        body: html! {
+            p {
+                "Left the picture, right where it differs from the one in 64-bit floats: dim grey where it is equal, "
+                "from violet to yellow the larger the difference. " (width) " × " (height) " pixels."
+            }
+            div.pictures { @for figure in &figures { (figure) } }
+        },
+        commands: vec![
+            render("f64"),
+            render(other),
+            format!("octray diff {name}-f64.png {name}-{other}.png -o {name}-{other}-difference.png"),
+        ],
+    })
+}
+
+/// The picture, its map, and how far off it is.
+fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error> {
+    let difference = Difference::between(&exact.picture, &traced.picture)?;
+    let share = 100.0 * difference.beyond_1 as f64 / difference.pixels.max(1) as f64;
+    let arith = match traced.format == arith.name() {
+        true => traced.format.clone(),
+        false => format!("{}: {}", arith.name(), traced.format),
+    };
+    let says = match difference.is_zero() {
+        true => "equal to f64".into(),
+        false => format!("{:.1} dB, {share:.2} % of pixels off by more than 1 level", difference.psnr()),
+    };
+    let map = heat::map(&exact.picture, &traced.picture)?;
+    Ok(html! {
+        figure {
+            div.pair {
+                (page::image(&traced.picture, &format!("rendered in {arith}"))?)
+                (page::image(&map, &format!("differences of {arith} from f64"))?)
+            }
+            figcaption { strong { (arith) } ": " (says) }
+        }
+    })
+}
