@@ -2,11 +2,11 @@
 
 use crate::cost::{CostMap, dearest_first};
 use crate::deal::{Deal, Policy};
-use crate::engine::{self, Engine};
+use crate::engine::{self, Engine, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::RenderJob;
-use crate::packets::{Packets, Shape};
+use crate::packets::{Packet, Packets, Shape};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
@@ -18,6 +18,9 @@ use octray_core::scalar;
 use octray_scenes::model::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::time::Instant;
+
+/// The function that all tracing of [`trace`] happens in, as Callgrind names it.
+pub const TRACING: &str = "octray::trace::trace_packet";
 
 /// Trace what the job asks for.
 ///
@@ -100,7 +103,7 @@ fn render(
         },
         |worker, index| {
             if let Some(packet) = packets.take(index) {
-                worker.trace(packet);
+                trace_packet(&mut **worker, packet);
             }
         },
         || progress.step(),
@@ -119,6 +122,12 @@ fn render(
     };
     let saturations = scalar::saturations().wrapping_sub(probed);
     Ok((picture, counters, work, u64::from(saturations)))
+}
+
+/// What tracing comes to, without start-up and without the picture's file: [`TRACING`].
+#[inline(never)]
+fn trace_packet(worker: &mut dyn Worker, packet: Packet<'_>) {
+    worker.trace(packet);
 }
 
 /// The packets from the dearest to the cheapest, by what one pixel in 256 costs.
