@@ -33,6 +33,9 @@ pub struct Wishes {
     pub budget: Option<f64>,
 }
 
+/// How far off a picture is and what it costs, or why that is not known.
+pub type Measured = Result<(Accuracy, f64), String>;
+
 /// A setting that was measured.
 #[derive(Clone, Debug)]
 pub struct Point {
@@ -98,7 +101,7 @@ impl Panel {
         path: &Path,
         kind: CostKind,
         job: &ChartJob,
-        measured: Vec<(Setting, Result<(Accuracy, f64), String>)>,
+        measured: Vec<(Setting, Measured)>,
     ) -> Self {
         let settings: Vec<Setting> = measured.iter().map(|(setting, _)| *setting).collect();
         let mut panel = Self {
