@@ -21,7 +21,7 @@ const LEGEND: i32 = 34;
 const CROWDED: i32 = 14;
 
 const GRID: RGBColor = RGBColor(225, 225, 225);
-const FAINT: RGBColor = RGBColor(125, 125, 125);
+const FAINT: RGBColor = RGBColor(105, 105, 105);
 const WISH: RGBColor = RGBColor(150, 150, 150);
 const FRONTIER: RGBColor = RGBColor(30, 90, 170);
 

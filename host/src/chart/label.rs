@@ -156,7 +156,7 @@ impl Surroundings<'_> {
             }
         }
         let met = self.avoid.iter().filter(|rect| rect.meets(place)).count();
-        badness + 20 * met as i32
+        badness + 60 * met as i32
     }
 }
 
