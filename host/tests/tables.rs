@@ -77,6 +77,27 @@ fn a_file_with_more_of_the_thesis_is_compared_as_it_is() {
     );
 }
 
+/// Figures of the thesis as somebody might fill them in; the numbers are made up.
+const MORE: &str = "\
+table,scene,variant,quantity,machine,value,unit,page
+II,figure-19,2,time,Balance 8000,61.5,minutes,70
+II,figure-19,2,reflected rays,,6200,,70
+II,figure-20,10,time,Balance 8000,200,minutes,70
+II,figure-20,10,blocked light tests,,4000,,70
+VII,figure-21,4,time,,0.26,ratio,
+VII,,4,time,,0.27,ratio,
+";
+
+#[test]
+fn what_is_known_of_the_thesis_stands_beside_ours() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("more.csv"), MORE).unwrap();
+    tables(folder.path(), "II VII --size 64x64 --thesis more.csv")
+        .assert()
+        .success()
+        .stdout_eq(file!["tables/II-VII-thesis.txt"].raw());
+}
+
 #[test]
 fn charts_are_drawn_with_their_tables() {
     let folder = tempfile::tempdir().unwrap();

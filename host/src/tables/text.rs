@@ -148,29 +148,7 @@ fn number(value: f64, decimals: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::table::Base;
-    use super::super::table::tests::draft;
-    use super::super::thesis::Thesis;
-    use super::super::thesis::tests::thesis;
     use super::*;
-    use snapbox::{assert_data_eq, str};
-
-    #[test]
-    fn what_is_not_at_hand_is_told() {
-        let table = draft(Base::OfScene).beside(&Thesis::default());
-        assert_data_eq!(of(&table), str![]);
-    }
-
-    #[test]
-    fn the_thesis_stands_beside_ours() {
-        let known = "\
-            IV,figure-19,opaque,time,Balance 8000,8,minutes,60\n\
-            IV,figure-19,reflective,time,Balance 8000,20.5,minutes,60\n\
-            IV,figure-19,reflective,reflected rays,,1000,,61\n\
-            IV,,reflective,time,,1.5,ratio,";
-        let table = draft(Base::OfScene).beside(&thesis(known).unwrap());
-        assert_data_eq!(of(&table), str![]);
-    }
 
     #[test]
     fn numbers_have_commas_and_decimals() {
