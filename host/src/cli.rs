@@ -12,6 +12,7 @@ mod measure;
 mod render;
 mod schedule;
 mod stability;
+mod tables;
 pub mod value;
 
 pub use bake::BakeArgs;
@@ -23,6 +24,7 @@ pub use measure::MeasureArgs;
 pub use render::RenderArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
+pub use tables::TablesArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -56,6 +58,8 @@ pub enum Command {
     Chart(ChartArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
+    /// Reprint the tables of the thesis from our own runs
+    Tables(TablesArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";
