@@ -1,4 +1,4 @@
-//! Finds the newest record of `octray measure`, for `octray tables` to read.
+//! Finds the newest record of `octray measure`, and its chart, for `octray tables` and `octray report`.
 
 use std::error::Error;
 use std::{env, fs};
@@ -13,6 +13,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let newest = records.max().ok_or("host/record holds no YYYY-MM-DD.csv")?;
     println!("cargo::rustc-env=OCTRAY_RECORD={folder}/{newest}");
+    let chart = newest.replace(".csv", ".svg");
+    if !fs::exists(format!("{folder}/{chart}"))? {
+        return Err(format!("host/record holds no {chart}").into());
+    }
+    println!("cargo::rustc-env=OCTRAY_RECORD_CHART={folder}/{chart}");
     println!("cargo::rustc-env=OCTRAY_RECORD_NAME=host/record/{newest}");
     Ok(())
 }

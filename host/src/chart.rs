@@ -66,29 +66,7 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.output.iter().chain(&job.csv).chain(&job.json) {
         output::probe(path)?;
     }
-    let paths = match &*job.scenes {
-        [] => {
-            let root = Workspace::root()?;
-            FIGURES.iter().map(|name| root.join(name)).collect()
-        }
-        scenes => scenes.to_vec(),
-    };
-    let scenes: Vec<_> = (paths.iter())
-        .map(|path| Named::read(path))
-        .collect::<Result<_, _>>()?;
-    let meter = Meter::new(job, interrupt)?;
-    let progress = Progress::new("measuring");
-    progress.start(scenes.len() * job.grid.settings().len() * (1 + job.costs.len()));
-    let mut panels = Vec::new();
-    for (scene, path) in scenes.iter().zip(&paths) {
-        panels.extend(of_scene(scene, path, job, &meter, &progress)?);
-    }
-    drop(progress);
-    if panels.iter().all(|panel| panel.points.is_empty()) {
-        let why = panels.iter().flat_map(|panel| &panel.refused).next();
-        let why = why.map_or("", |refused| &*refused.why);
-        return Err(Error::Failed(format!("there is no point to draw: {why}")));
-    }
+    let panels = measure(job, interrupt)?;
     if let Some(path) = &job.csv {
         output::write_file(path, interrupt, |out| report::write_csv(&panels, out))?;
     }
@@ -101,6 +79,44 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::write_stdout(interrupt, |out| {
         out.write_all(report::text(&panels).as_bytes())
     })
+}
+
+/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
+///
+/// # Errors
+/// If one cannot be read, or is wrong.
+pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
+    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
+    if !named.is_empty() {
+        let named = named.iter();
+        return named.map(|path| read(path.clone(), path)).collect();
+    }
+    let root = Workspace::root()?;
+    (FIGURES.iter())
+        .map(|name| read(name.into(), &root.join(name)))
+        .collect()
+}
+
+/// The points of every scene: a panel for each kind of cost.
+///
+/// # Errors
+/// When a tool is missing, a scene is refused, or there is no point at all.
+pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Error> {
+    let scenes = scenes(&job.scenes)?;
+    let meter = Meter::new(job, interrupt)?;
+    let progress = Progress::new("measuring");
+    progress.start(scenes.len() * job.grid.settings().len() * (1 + job.costs.len()));
+    let mut panels = Vec::new();
+    for (path, scene) in &scenes {
+        panels.extend(of_scene(scene, path, job, &meter, &progress)?);
+    }
+    drop(progress);
+    if panels.iter().all(|panel| panel.points.is_empty()) {
+        let why = panels.iter().flat_map(|panel| &panel.refused).next();
+        let why = why.map_or("", |refused| &*refused.why);
+        return Err(Error::Failed(format!("there is no point to draw: {why}")));
+    }
+    Ok(panels)
 }
 
 /// A panel for each kind of cost.

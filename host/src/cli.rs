@@ -10,6 +10,7 @@ mod diff;
 mod generate;
 mod measure;
 mod render;
+mod report;
 mod schedule;
 mod stability;
 mod tables;
@@ -22,6 +23,7 @@ pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use measure::MeasureArgs;
 pub use render::RenderArgs;
+pub use report::ReportArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
 pub use tables::TablesArgs;
@@ -56,6 +58,8 @@ pub enum Command {
     Measure(MeasureArgs),
     /// Chart what accuracy costs, over arithmetics and settings, and choose
     Chart(ChartArgs),
+    /// Write one page with pictures, charts, tables and limits
+    Report(ReportArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
     /// Reprint the tables of the thesis from our own runs

@@ -36,6 +36,7 @@ pub mod packing;
 pub mod picture;
 pub mod progress;
 pub mod render;
+pub mod report;
 pub mod simulate;
 pub mod stability;
 pub mod stats;
@@ -94,6 +95,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
         Command::Schedule(args) => sweep::run(&args.job(), interrupt),
         Command::Chart(args) => chart::run(&args.job()?, interrupt),
+        Command::Report(args) => report::run(&args.job()?, interrupt),
         Command::Stability(args) => stability::run(&args.job(), interrupt),
         Command::Tables(args) => tables::run(&args.job()?, interrupt),
     }

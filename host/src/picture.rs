@@ -12,6 +12,7 @@ pub use format::{Format, RasDepth, Target, read};
 
 use fnv::FnvHasher;
 use std::hash::Hasher;
+use std::io;
 use std::ops::Range;
 
 /// Red, green and blue in 8 bits, 255 being full intensity.
@@ -124,6 +125,16 @@ impl Picture {
         hasher.write(&self.height.to_le_bytes());
         hasher.write(self.levels.as_flattened());
         hasher.finish()
+    }
+
+    /// The levels as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// If the encoder refuses the picture's size.
+    pub fn png(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        png::write(self, &mut bytes)?;
+        Ok(bytes)
     }
 }
 

@@ -10,11 +10,10 @@ mod limits;
 mod page;
 mod pictures;
 
-use crate::chart::ChartJob;
+use crate::chart::{self, ChartJob};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::Arith;
-use crate::measure::frames::Named;
 use crate::output;
 use crate::progress::Progress;
 use octray_stability::method::Method;
@@ -46,14 +45,11 @@ pub struct ReportJob {
 /// missing that counts costs, the page says so.
 pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::probe(&job.output)?;
-    let paths = job.chart.paths()?;
-    let scenes: Vec<_> = (paths.iter())
-        .map(|path| Named::read(path))
-        .collect::<Result<_, _>>()?;
+    let scenes = chart::scenes(&job.chart.scenes)?;
     let progress = Progress::new("rendering");
     progress.start(scenes.len() * job.ariths.len());
-    let pictures = (scenes.iter().zip(&paths))
-        .map(|(scene, path)| pictures::section(scene, path, job, &progress, interrupt))
+    let pictures = (scenes.iter())
+        .map(|(path, scene)| pictures::section(scene, path, job, &progress, interrupt))
         .collect::<Result<Vec<Section>, _>>()?;
     drop(progress);
     let mut sections = pictures;

@@ -1,7 +1,7 @@
 //! `octray stability`: where methods hold, degrade and break, as a table, as data and as maps.
 
 mod data;
-mod map;
+pub(crate) mod map;
 mod overview;
 mod queries;
 mod table;

@@ -31,7 +31,7 @@ struct Row {
 pub(super) fn sections() -> Result<Vec<Section>, Error> {
     let rows = read(RECORD).map_err(|cause| Error::Failed(format!("{RECORD_NAME}: {cause}")))?;
     let commit = rows.first().map_or("", |row| &row.commit);
-    let three = emulated::three(None)?.beside(&Thesis::known()?);
+    let three = emulated::three(None)?.beside(&Thesis::read(None)?);
     let measured = format!("{RECORD_NAME}, measured at commit {commit}");
     let units = Section {
         id: "units".into(),

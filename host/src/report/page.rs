@@ -157,6 +157,9 @@ mod tests {
         let picture = Picture::black(2, 3, false).unwrap();
         let image = image(&picture, "\"black\"").unwrap().into_string();
         assert!(image.starts_with("<img src=\"data:image/png;base64,iVBOR"));
-        assert!(image.ends_with("width=\"2\" height=\"3\" alt=\"&quot;black&quot;\">"), "{image}");
+        assert!(
+            image.ends_with("width=\"2\" height=\"3\" alt=\"&quot;black&quot;\">"),
+            "{image}"
+        );
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn section(
         size: job.size,
         max_depth: MAX_DEPTH,
     };
-    let render = |arith| reference::render(scene.scene(), arith, view, interrupt);
+    let render = |arith| reference::render(&scene.scene, arith, view, interrupt);
     let exact = render(Arith::F64)?;
     let mut figures = Vec::new();
     for &arith in &job.ariths {
@@ -47,7 +47,7 @@ pub(super) fn section(
     }
     let (width, height) = job.size;
     let file = quoted(path);
-    let name = scene.name();
+    let name = &scene.name;
     let render = |arith: &str| {
         format!(
             "octray render {file} --arith {arith} --size {width}x{height} -o {name}-{arith}.png"
@@ -67,7 +67,9 @@ pub(super) fn section(
         commands: vec![
             render("f64"),
             render(other),
-            format!("octray diff {name}-f64.png {name}-{other}.png -o {name}-{other}-difference.png"),
+            format!(
+                "octray diff {name}-f64.png {name}-{other}.png -o {name}-{other}-difference.png"
+            ),
         ],
     })
 }
@@ -82,7 +84,10 @@ fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error
     };
     let says = match difference.is_zero() {
         true => "equal to f64".into(),
-        false => format!("{:.1} dB, {share:.2} % of pixels off by more than 1 level", difference.psnr()),
+        false => format!(
+            "{:.1} dB, {share:.2} % of pixels off by more than 1 level",
+            difference.psnr()
+        ),
     };
     let map = heat::map(&exact.picture, &traced.picture)?;
     Ok(html! {

@@ -18,7 +18,7 @@ const LINE: i32 = 18;
 const MARGIN: i32 = 12;
 
 /// The map of a method.
-pub(super) struct Map<'a>(pub(super) &'a Outcome);
+pub(crate) struct Map<'a>(pub(crate) &'a Outcome);
 
 impl Figure for Map<'_> {
     fn size(&self) -> (u32, u32) {

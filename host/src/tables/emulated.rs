@@ -9,8 +9,11 @@ use std::fs;
 use std::path::Path;
 
 /// The newest record that comes with octray.
-const RECORD: &str = include_str!(env!("OCTRAY_RECORD"));
-const RECORD_NAME: &str = env!("OCTRAY_RECORD_NAME");
+pub const RECORD: &str = include_str!(env!("OCTRAY_RECORD"));
+/// Its path in the sources.
+pub const RECORD_NAME: &str = env!("OCTRAY_RECORD_NAME");
+/// Its chart: SVG.
+pub const RECORD_CHART: &str = include_str!(env!("OCTRAY_RECORD_CHART"));
 
 /// The columns of a record that are needed.
 #[derive(Debug, Deserialize)]
