@@ -165,6 +165,7 @@ mod tests {
                 packet: crate::packing::FIXED.1,
                 packets: 1,
                 forecast: None,
+                messages: None,
                 idle: vec![0.0],
             },
         })
