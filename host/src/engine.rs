@@ -40,8 +40,21 @@ pub trait Worker: Send {
     /// by pixel costs what all of them at once do.
     fn probe(&mut self, region: &Region);
 
+    /// What the camera's rays through the blocks that begin in a row meet first, from left to right; the
+    /// samples of a block follow each other.
+    fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>>;
+
     /// What was counted so far.
     fn counters(&self) -> &Counters;
+}
+
+/// What a ray of the camera meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstHit {
+    /// The object's place in the scene file, counted from 0.
+    pub object: u32,
+    /// How far away, in units of the scene file.
+    pub distance: f64,
 }
 
 /// What there is to know of a scene that was made ready.
@@ -51,6 +64,8 @@ pub struct Built {
     pub format: &'static str,
     /// The scene was scaled by 2 to this power.
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    pub too_fine: Option<String>,
     /// The octree.
     pub octree: Octree,
     /// Columns and rows of the picture.
@@ -119,8 +134,9 @@ impl Plan<'_> {
         quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
     }
 
-    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
-        let view = View {
+    /// The view as quantisation wants it.
+    fn quantised_view(&self) -> View {
+        View {
             size: self.view.size,
             pixels_per_ray: match self.view.pixels_per_ray {
                 PixelsPerRay::One => 1,
@@ -128,8 +144,11 @@ impl Plan<'_> {
             },
             samples: self.view.samples,
             max_depth: self.view.max_depth,
-        };
-        let mut prepared = quantise::quantise::<S>(self.scene, &view)
+        }
+    }
+
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let mut prepared = quantise::quantise::<S>(self.scene, &self.quantised_view())
             .map_err(|overflow| Error::Failed(overflow.to_string()))?;
         let default_depth = match self.tree.kind {
             Tree::Tight | Tree::Packed | Tree::None => 24,
@@ -187,6 +206,9 @@ impl Plan<'_> {
         let built = Built {
             format: S::NAME,
             scale: prepared.placement.exponent,
+            too_fine: quantise::resolution::<S>(self.scene, &self.quantised_view())
+                .err()
+                .map(|fine| fine.to_string()),
             octree: Octree {
                 kind: self.tree.kind,
                 nodes: u64::from(summary.inner + summary.leaves),
@@ -287,13 +309,24 @@ struct Tracing<'a, S: Quantize, T: Grown<S>> {
     ready: &'a Ready<S, T>,
     tree: T::View<'a>,
     rays: Vec<Pending<S>>,
-    stack: <T::View<'a> as Accelerator<S>>::Stack,
+    stack: Stack<'a, S, T>,
     blockers: Vec<Option<ObjectRef>>,
     counters: Counters,
 }
 
-impl<S: Quantize, T: Grown<S>> Tracing<'_, S, T> {
-    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
+/// What the walk through a tree needs.
+type Stack<'a, S, T> = <<T as Grown<S>>::View<'a> as Accelerator<S>>::Stack;
+
+impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
+    /// Does something with what it takes to trace a ray.
+    fn with<R>(
+        &mut self,
+        work: impl FnOnce(
+            &Tracer<'_, S, T::View<'a>>,
+            &mut Workspace<'_, S, Stack<'a, S, T>>,
+            &mut Counters,
+        ) -> R,
+    ) -> R {
         let scene = self.ready.prepared.scene.scene();
         let tracer = Tracer {
             scene: &scene,
@@ -306,8 +339,14 @@ impl<S: Quantize, T: Grown<S>> Tracing<'_, S, T> {
             stack: &mut self.stack,
             blockers: &mut self.blockers,
         };
+        work(&tracer, &mut workspace, &mut self.counters)
+    }
+
+    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
         let frame = &self.ready.prepared.frame;
-        frame.render_region(region, &tracer, &mut workspace, &mut self.counters, put);
+        self.with(|tracer, workspace, counters| {
+            frame.render_region(region, tracer, workspace, counters, put);
+        });
     }
 }
 
@@ -337,6 +376,31 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
 
     fn probe(&mut self, region: &Region) {
         self.render(region, |_, _, _| {});
+    }
+
+    fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>> {
+        let ready = self.ready;
+        let (frame, unit) = (
+            &ready.prepared.frame,
+            (-f64::from(ready.built.scale)).exp2(),
+        );
+        let samples = frame.parts().samples;
+        let columns = (0..ready.built.size.0).step_by(frame.block() as usize);
+        let place = |column| {
+            let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
+            inside.map(move |(x, y)| frame.place(column, row, x, y))
+        };
+        self.with(|tracer, workspace, counters| {
+            let hit = |(x, y)| {
+                let ray = frame.camera().row(y).ray(x);
+                let hit = tracer.nearest(&ray, workspace, counters)?;
+                Some(FirstHit {
+                    object: tracer.scene.attributes_of(hit.object).id,
+                    distance: hit.t.to_f64() * unit,
+                })
+            };
+            columns.flat_map(place).map(hit).collect()
+        })
     }
 
     fn counters(&self) -> &Counters {
