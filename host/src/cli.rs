@@ -4,6 +4,7 @@
 //! here, before any work.
 
 mod bake;
+mod chart;
 mod check;
 mod diff;
 mod generate;
@@ -11,9 +12,11 @@ mod measure;
 mod render;
 mod schedule;
 mod stability;
+mod tables;
 pub mod value;
 
 pub use bake::BakeArgs;
+pub use chart::ChartArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
@@ -21,6 +24,7 @@ pub use measure::MeasureArgs;
 pub use render::RenderArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
+pub use tables::TablesArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -50,8 +54,12 @@ pub enum Command {
     Schedule(ScheduleArgs),
     /// Measure what pictures cost on small targets, in an emulator
     Measure(MeasureArgs),
+    /// Chart what accuracy costs, over arithmetics and settings, and choose
+    Chart(ChartArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
+    /// Reprint the tables of the thesis from our own runs
+    Tables(TablesArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";
