@@ -23,14 +23,14 @@ impl<S: Scalar> Sphere<S> {
     pub(super) fn hit(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(ray.direction);
-        let apart = to_centre - ray.direction * middle;
-        let discriminant = S::product(self.radius, self.radius) - apart.dot_wide(apart);
-        if discriminant < S::product(S::ZERO, S::ZERO) {
+        let square = S::product(self.radius, self.radius);
+        // Behind a ray that starts outside: rays leave most spheres that they start from that way.
+        if middle < S::ZERO && to_centre.dot_wide(to_centre) > square {
             return None;
         }
-        // Behind a ray that starts outside: shadow rays leave most spheres that way, without a root.
-        if middle < S::ZERO && to_centre.dot_wide(to_centre) > S::product(self.radius, self.radius)
-        {
+        let apart = to_centre - ray.direction * middle;
+        let discriminant = square - apart.dot_wide(apart);
+        if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }
         let half_chord = S::sqrt_wide(discriminant);
