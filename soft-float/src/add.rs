@@ -1,8 +1,8 @@
 //! Sum and difference.
 
 use crate::bits::{
-    INFINITY, NAN, SIGN, exponent, fraction, is_normal, magnitude, normalise, pack, pack_normal, propagate,
-    shift_sticky, significand,
+    INFINITY, NAN, SIGN, exponent, fraction, is_normal, magnitude, normalise, pack, pack_normal,
+    propagate, shift_sticky, significand,
 };
 
 /// Beyond this distance of the exponents the smaller number is less than half of a last place of

@@ -232,6 +232,11 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
+    fn square(self) -> Product {
+        Product(multiply::square(self.0) as i64)
+    }
+
+    #[inline(always)]
     fn narrow(wide: Product) -> Self {
         Self::fit(wide.0.wrapping_add(1 << (F - 1)) >> F)
     }
@@ -292,12 +297,11 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = leading_zeros(size).saturating_sub(1);
-        let square_of = |c: i32| multiply::signed(c, c) as u64;
         let [x, y, z] = v.map(|c| c.0 << up);
         // In [2⁶⁰, 2⁶⁴): an even number of leading zeros is 0 or 2.
-        let square = square_of(x)
-            .wrapping_add(square_of(y))
-            .wrapping_add(square_of(z));
+        let square = multiply::square(x)
+            .wrapping_add(multiply::square(y))
+            .wrapping_add(multiply::square(z));
         let zeros = if square >> 62 == 0 { 2 } else { 0 };
         let x_q32 = ((square << zeros) >> 32) as u32;
         let inverse_q30 = rsqrt_q30(x_q32);

@@ -41,7 +41,7 @@ impl<S: Scalar> Cone<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(d);
         let apart = d * middle - to_centre;
-        if apart.dot_wide(apart) > S::product(self.reach, self.reach) {
+        if apart.square_wide() > self.reach.square() {
             return None;
         }
         let w = apart.map(|c| c.to_local(self.exponent));
@@ -55,8 +55,8 @@ impl<S: Scalar> Cone<S> {
         let a = (self.cos - rise) * (self.cos + rise);
         let b =
             S::narrow(S::product(cos_square, d.dot(radial)) - S::product(self.sin * rise, edge));
-        let c = S::narrow(S::product(cos_square, radial.dot(radial)) - S::product(edge, edge));
-        let discriminant = S::product(b, b) - S::product(a, c);
+        let c = S::narrow(S::product(cos_square, radial.dot(radial)) - edge.square());
+        let discriminant = b.square() - S::product(a, c);
         if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }

@@ -23,13 +23,13 @@ impl<S: Scalar> Sphere<S> {
     pub(super) fn hit(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(ray.direction);
-        let square = S::product(self.radius, self.radius);
+        let square = self.radius.square();
         // Behind a ray that starts outside: rays leave most spheres that they start from that way.
-        if middle < S::ZERO && to_centre.dot_wide(to_centre) > square {
+        if middle < S::ZERO && to_centre.square_wide() > square {
             return None;
         }
         let apart = to_centre - ray.direction * middle;
-        let discriminant = square - apart.dot_wide(apart);
+        let discriminant = square - apart.square_wide();
         if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }
