@@ -4,7 +4,7 @@
 //! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
 //! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
 //! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
-//! and [`report`] tells it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
+//! and [`report`] and [`table`] tell it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
 //! [`kernels`] does the same with single operations.
 
 pub mod board;
@@ -21,6 +21,7 @@ pub mod ratio;
 pub mod reference;
 pub mod report;
 pub mod row;
+pub mod table;
 pub mod workspace;
 
 use crate::canvas;
@@ -28,12 +29,11 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
-use board::Board;
 use chart::Chart;
 use emulate::Emulator;
 use frames::{Bench, Named};
 use job::MeasureJob;
-use report::Report;
+use report::{Report, With};
 use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
@@ -83,19 +83,11 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     };
     let rows = bench.frames(&scenes, job)?;
     drop(progress);
-    let versions = workspace.versions();
     let report = Report {
-        commit: versions.commit,
-        toolchain: versions.toolchain,
-        emulator: emulators(&job.boards),
+        with: With::of(&workspace, &job.boards),
         rows,
     };
-    if let Some(path) = &job.json {
-        output::write_file(path, interrupt, |out| report.write_json(out))?;
-    }
-    if let Some(path) = &job.csv {
-        output::write_file(path, interrupt, |out| report.write_csv(out))?;
-    }
+    report.write(&row::COLUMNS, job, interrupt)?;
     if let Some(path) = &job.chart {
         let chart = Chart::of(&report.rows).ok_or_else(|| {
             Error::Failed("no core was measured without and with its floating-point unit".into())
@@ -103,9 +95,14 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         canvas::write_figure(path, &chart, interrupt)?;
     }
     output::write_stdout(interrupt, |out| {
-        out.write_all(report.text(job.functions).as_bytes())
+        out.write_all(table::text(&report.rows, job.functions).as_bytes())
     })?;
-    match report.rows.iter().filter(|row| row.cost.is_none()).count() {
+    all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
+}
+
+/// An error if some of what was to be measured failed.
+fn all_done(failures: usize) -> Result<(), Error> {
+    match failures {
         0 => Ok(()),
         n => Err(Error::Failed(format!("{n} of the combinations failed"))),
     }
@@ -122,12 +119,4 @@ fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error
     workspace
         .build(&program, interrupt)?
         .map_err(|why| Error::Failed(format!("the emulator's plugin cannot be built: {why}")))
-}
-
-/// The emulators' versions, each once.
-fn emulators(boards: &[&Board]) -> String {
-    let mut versions: Vec<_> = boards.iter().map(|board| emulate::version(board)).collect();
-    versions.sort();
-    versions.dedup();
-    versions.join(", ")
 }
