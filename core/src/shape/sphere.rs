@@ -24,13 +24,17 @@ impl<S: Scalar> Sphere<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(ray.direction);
         let square = self.radius.square();
-        // Behind a ray that starts outside: rays leave most spheres that they start from that way.
-        if middle < S::ZERO && to_centre.square_wide() > square {
+        // A ray that starts outside leaves most spheres that it starts from that way, without a root.
+        let behind = || middle < S::ZERO && to_centre.square_wide() > square;
+        // A question more costs nothing where numbers are dear. Where they are not, it is guessed
+        // wrong too often to come first.
+        let dear = cfg!(target_os = "none");
+        if dear && behind() {
             return None;
         }
         let apart = to_centre - ray.direction * middle;
         let discriminant = square - apart.square_wide();
-        if discriminant < S::product(S::ZERO, S::ZERO) {
+        if discriminant < S::product(S::ZERO, S::ZERO) || !dear && behind() {
             return None;
         }
         let half_chord = S::sqrt_wide(discriminant);
