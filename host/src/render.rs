@@ -162,8 +162,9 @@ mod tests {
             work: Work {
                 threads: 1,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::default().packet,
+                packet: crate::packing::FIXED.1,
                 packets: 1,
+                forecast: None,
                 idle: vec![0.0],
             },
         })

@@ -4,6 +4,7 @@ use crate::deal::Policy;
 use crate::facts::Facts;
 use crate::job::{Arith, Tree};
 use crate::packets::Shape;
+use crate::packing::Forecast;
 use serde::{Serialize, Serializer};
 
 /// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
@@ -108,6 +109,8 @@ pub struct Work {
     pub packet: Shape,
     /// How many there were.
     pub packets: usize,
+    /// Why they were so large and so dealt, if that was chosen.
+    pub forecast: Option<Forecast>,
     /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
     pub idle: Vec<f64>,
 }
@@ -119,7 +122,7 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::job::WorkOptions;
+    use crate::packing::FIXED;
 
     /// Statistics in which every number is another.
     pub(crate) fn example() -> Stats {
@@ -163,8 +166,15 @@ pub(crate) mod tests {
             work: Work {
                 threads: 2,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::default().packet,
+                packet: FIXED.1,
                 packets: 64,
+                forecast: Some(Forecast {
+                    probed: 324,
+                    simulated: 6,
+                    seconds: 0.000_25,
+                    speed_up: 1.9876,
+                    fixed: 1.9567,
+                }),
                 idle: vec![0.0005, 0.0],
             },
             hash: 0x0012_3456_789a_bcde,
@@ -181,6 +191,7 @@ pub(crate) mod tests {
             r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
             r#""threads":2,"schedule":"dynamic","packet":{"rows":4,"columns":null},"packets":64,"#,
+            r#""forecast":{"probed":324,"simulated":6,"seconds":0.00025,"speed_up":1.9876,"fixed":1.9567},"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );
         assert_eq!(text, expected);
