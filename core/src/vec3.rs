@@ -49,6 +49,17 @@ impl<S: Scalar> Vec3<S> {
         self.x.square() + self.y.square() + self.z.square()
     }
 
+    /// The cross product; each component is rounded once.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        let part = |a, b, c, d| S::narrow(S::product(a, b) - S::product(c, d));
+        vec3(
+            part(self.y, other.z, self.z, other.y),
+            part(self.z, other.x, self.x, other.z),
+            part(self.x, other.y, self.y, other.x),
+        )
+    }
+
     /// The unit vector in this direction, and the length.
     #[inline(always)]
     pub fn unit(self) -> (Self, S) {

@@ -11,6 +11,7 @@ mod measure;
 mod render;
 mod schedule;
 mod stability;
+mod tables;
 pub mod value;
 
 pub use bake::BakeArgs;
@@ -21,6 +22,7 @@ pub use measure::MeasureArgs;
 pub use render::RenderArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
+pub use tables::TablesArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -52,6 +54,8 @@ pub enum Command {
     Measure(MeasureArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
+    /// Reprint the tables of the thesis from our own runs
+    Tables(TablesArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";

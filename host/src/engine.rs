@@ -51,6 +51,8 @@ pub struct Built {
     pub format: &'static str,
     /// The scene was scaled by 2 to this power.
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    pub too_fine: Option<String>,
     /// The octree.
     pub octree: Octree,
     /// Columns and rows of the picture.
@@ -109,8 +111,9 @@ impl Plan<'_> {
         quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
     }
 
-    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
-        let view = View {
+    /// The view as quantisation wants it.
+    fn quantised_view(&self) -> View {
+        View {
             size: self.view.size,
             pixels_per_ray: match self.view.pixels_per_ray {
                 PixelsPerRay::One => 1,
@@ -118,8 +121,11 @@ impl Plan<'_> {
             },
             samples: self.view.samples,
             max_depth: self.view.max_depth,
-        };
-        let mut prepared = quantise::quantise::<S>(self.scene, &view)
+        }
+    }
+
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let mut prepared = quantise::quantise::<S>(self.scene, &self.quantised_view())
             .map_err(|overflow| Error::Failed(overflow.to_string()))?;
         let default_depth = match self.tree.kind {
             Tree::Tight | Tree::Packed | Tree::None => 24,
@@ -177,6 +183,9 @@ impl Plan<'_> {
         let built = Built {
             format: S::NAME,
             scale: prepared.placement.exponent,
+            too_fine: quantise::resolution::<S>(self.scene, &self.quantised_view())
+                .err()
+                .map(|fine| fine.to_string()),
             octree: Octree {
                 kind: self.tree.kind,
                 nodes: u64::from(summary.inner + summary.leaves),

@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`], [`tables`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
@@ -40,6 +40,7 @@ pub mod stability;
 pub mod stats;
 pub mod summary;
 pub mod sweep;
+pub mod tables;
 pub mod threads;
 pub mod trace;
 
@@ -92,6 +93,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
         Command::Schedule(args) => sweep::run(&args.job(), interrupt),
         Command::Stability(args) => stability::run(&args.job(), interrupt),
+        Command::Tables(args) => tables::run(&args.job()?, interrupt),
     }
 }
 

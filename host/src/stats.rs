@@ -26,6 +26,9 @@ pub struct Stats {
     /// The scene was scaled by 2 to this power to fit the format.
     #[serde(skip)]
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub too_fine: Option<String>,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// Rays by kind.
@@ -139,6 +142,7 @@ pub(crate) mod tests {
             arith: Arith::Auto,
             format: "i12f20".into(),
             scale: -3,
+            too_fine: None,
             size: (512, 256),
             rays: Rays {
                 primary: 131_072,

@@ -20,6 +20,9 @@ impl fmt::Display for Summary<'_> {
         );
         line(f, "picture", &picture)?;
         line(f, "arithmetic", &arithmetic(stats))?;
+        if let Some(too_fine) = &stats.too_fine {
+            line(f, "too coarse", too_fine)?;
+        }
         line(f, "octree", &tree(stats))?;
         count(f, "rays", rays.total(), "")?;
         count(f, "  primary", rays.primary, "")?;
@@ -206,10 +209,15 @@ idle          500 us, 0 us
         let mut stats = example();
         (stats.arith, stats.format, stats.scale) = (crate::job::Arith::F32, "f32".into(), 0);
         (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
+        stats.too_fine = Some("f32 resolves little".into());
         let text = Summary(&stats).to_string();
         assert!(text.contains("arithmetic    f32\n"), "{text}");
         assert!(text.contains("depth 4, arena full: 7 leaves"), "{text}");
         assert!(!text.contains("rays/s"), "{text}");
+        assert!(
+            text.contains("\ntoo coarse    f32 resolves little\n"),
+            "{text}"
+        );
     }
 
     #[test]

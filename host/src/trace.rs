@@ -42,6 +42,7 @@ pub fn trace(
         picture,
         format: built.format.into(),
         scale: built.scale,
+        too_fine: built.too_fine.clone(),
         rays: Rays {
             primary: counters.rays_of(RayKind::Primary),
             shadow: counters.rays_of(RayKind::Shadow),
