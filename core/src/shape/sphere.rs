@@ -28,7 +28,7 @@ impl<S: Scalar> Sphere<S> {
         let behind = || middle < S::ZERO && to_centre.square_wide() > square;
         // A question more costs nothing where numbers are dear. Where they are not, it is guessed
         // wrong too often to come first.
-        let dear = cfg!(target_os = "none");
+        let dear = cfg!(octray_soft_float);
         if dear && behind() {
             return None;
         }
