@@ -4,6 +4,7 @@
 //! here, before any work.
 
 mod bake;
+mod chart;
 mod check;
 mod diff;
 mod generate;
@@ -15,6 +16,7 @@ mod tables;
 pub mod value;
 
 pub use bake::BakeArgs;
+pub use chart::ChartArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
@@ -52,6 +54,8 @@ pub enum Command {
     Schedule(ScheduleArgs),
     /// Measure what pictures cost on small targets, in an emulator
     Measure(MeasureArgs),
+    /// Chart what accuracy costs, over arithmetics and settings, and choose
+    Chart(ChartArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
     /// Reprint the tables of the thesis from our own runs

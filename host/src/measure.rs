@@ -38,7 +38,7 @@ use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
 /// The scenes that are measured if none is named.
-const FIGURES: [&str; 5] = [
+pub(crate) const FIGURES: [&str; 5] = [
     "scenes/figure-19.scene",
     "scenes/figure-20.scene",
     "scenes/figure-21.scene",
@@ -109,7 +109,7 @@ fn all_done(failures: usize) -> Result<(), Error> {
 }
 
 /// Builds the plugin that counts.
-fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
+pub(crate) fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
     let program = Program {
         package: "octray-count",
         arguments: &["--release"],
