@@ -78,6 +78,16 @@ pub struct Built {
     pub background: (Level, Intensity),
 }
 
+impl Built {
+    /// What packets are cut of: the rows that may show anything but background, whole.
+    pub fn region(&self) -> Region {
+        Region {
+            columns: 0..self.size.0,
+            rows: self.active.rows.clone(),
+        }
+    }
+}
+
 /// Makes a scene ready.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ use crate::deal::Policy;
 use crate::packets::Shape;
 use crate::picture::{RasDepth, Target};
 use clap::ValueEnum;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 use std::thread::available_parallelism;
@@ -31,7 +31,7 @@ pub struct RenderJob {
 }
 
 /// The octree to build.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TreeOptions {
     /// Its kind.
     pub kind: Tree,
@@ -46,7 +46,7 @@ pub struct TreeOptions {
 }
 
 /// What to trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewOptions {
     /// Columns and rows, 1 to 65535 each; the scene's own if `None`.
     pub size: Option<(u32, u32)>,
@@ -74,6 +74,8 @@ pub struct WorkOptions {
     pub packet: Option<Shape>,
     /// Whether each thread stays on one core.
     pub pin: bool,
+    /// Whether the ranks of an MPI job share the work, each on one thread.
+    pub mpi: bool,
 }
 
 /// One thread for each core, the packing chosen.
@@ -84,12 +86,13 @@ impl Default for WorkOptions {
             policy: None,
             packet: None,
             pin: false,
+            mpi: false,
         }
     }
 }
 
 /// The arithmetic a picture is traced in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[value(rename_all = "lower")]
 #[serde(rename_all = "lowercase")]
 pub enum Arith {
@@ -123,7 +126,7 @@ pub enum Arith {
 }
 
 /// The kind of octree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tree {
     /// Up to eight tight boxes per node, every object in one leaf.
@@ -140,7 +143,7 @@ pub enum Tree {
 }
 
 /// How objects are linked into the octants of the plain and the modified tree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum Link {
     /// Wherever the object's surface passes.
     #[default]
@@ -150,7 +153,7 @@ pub enum Link {
 }
 
 /// Pixels that one ray colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum PixelsPerRay {
     /// A ray for each pixel.
     #[default]

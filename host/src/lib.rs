@@ -8,6 +8,7 @@
 //! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`packing`]: the shape of packets and the way to deal them that suit a scene
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
+//! - `ranks`, with the feature `mpi`: the same spread over the ranks of an MPI job
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
 //! - [`canvas`]: what charts and maps are drawn on
@@ -35,6 +36,8 @@ pub mod packets;
 pub mod packing;
 pub mod picture;
 pub mod progress;
+#[cfg(feature = "mpi")]
+pub mod ranks;
 pub mod render;
 pub mod report;
 pub mod simulate;
@@ -87,13 +90,20 @@ pub fn launch<A: Parser>(
 
 fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
     match command {
-        Command::Render(args) => render::run(&args.job()?, interrupt, trace::trace),
+        Command::Render(args) => {
+            let job = args.job()?;
+            match job.work.mpi {
+                #[cfg(feature = "mpi")]
+                true => ranks::render(&job, interrupt),
+                _ => render::run(&job, interrupt, trace::trace),
+            }
+        }
         Command::Check(args) => check::run(&args.scenes, interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
         Command::Diff(args) => diff::run(&args.job(), interrupt),
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
-        Command::Schedule(args) => sweep::run(&args.job(), interrupt),
+        Command::Schedule(args) => sweep::run(&args.job()?, interrupt),
         Command::Chart(args) => chart::run(&args.job()?, interrupt),
         Command::Report(args) => report::run(&args.job()?, interrupt),
         Command::Stability(args) => stability::run(&args.job(), interrupt),

@@ -3,13 +3,13 @@
 
 use crate::picture::{Intensity, Level, Picture};
 use octray_core::packet::Region;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;
 use std::sync::Mutex;
 
 /// How large packets are; those at the right and at the bottom may be smaller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Shape {
     /// Rows.
     pub rows: NonZeroU32,

@@ -26,6 +26,10 @@ pub const PER_PACKET: f64 = 1100.0;
 /// 11 ns, as two threads took that did nothing but draw packets.
 pub const HAND_OUT: f64 = 100.0;
 
+/// The same where packets are dealt by messages to the ranks of an MPI job, taken to last 3 us; the statistics
+/// of such a rendering tell how long they did last.
+pub const MESSAGE: f64 = 30_000.0;
+
 /// The time for probing, and the time for simulating, as shares of the time for tracing on all threads.
 const SHARE: f64 = 0.002_5;
 
@@ -118,6 +122,10 @@ pub fn choose(
         map: &map,
         region,
         threads: work.threads,
+        hand_out: match work.mpi {
+            true => MESSAGE,
+            false => HAND_OUT,
+        },
         serial: map.cost(region) / f64::from(apart).powi(2),
     };
     let candidates = match open {
@@ -186,6 +194,8 @@ struct Search<'a> {
     map: &'a CostMap,
     region: &'a Region,
     threads: NonZeroUsize,
+    /// Instructions to hand out a packet.
+    hand_out: f64,
     /// Instructions before the threads begin.
     serial: f64,
 }
@@ -243,7 +253,7 @@ impl Search<'_> {
         let alone: f64 = costs.iter().sum();
         costs.iter_mut().for_each(|cost| *cost += PER_PACKET);
         let machine = Machine {
-            hand_out: HAND_OUT,
+            hand_out: self.hand_out,
             serial: self.serial,
             ..Machine::default()
         };
@@ -310,6 +320,7 @@ mod tests {
             policy,
             packet: rows.and_then(NonZeroU32::new).map(Shape::strip),
             pin: false,
+            mpi: false,
         }
     }
 

@@ -169,6 +169,7 @@ mod tests {
                 packet: crate::packing::FIXED.1,
                 packets: 1,
                 forecast: None,
+                messages: None,
                 idle: vec![0.0],
             },
         })

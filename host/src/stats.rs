@@ -114,8 +114,21 @@ pub struct Work {
     pub packets: usize,
     /// Why they were so large and so dealt, if that was chosen.
     pub forecast: Option<Forecast>,
+    /// What went between the ranks of an MPI job, if it was one; a rank counts as a thread.
+    pub messages: Option<Messages>,
     /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
     pub idle: Vec<f64>,
+}
+
+/// Packets that came back to the first rank of an MPI job.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Messages {
+    /// How many.
+    pub count: u64,
+    /// Their bytes.
+    pub bytes: u64,
+    /// For how many seconds the first rank took packets back and handed out others.
+    pub seconds: f64,
 }
 
 fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -179,6 +192,7 @@ pub(crate) mod tests {
                     speed_up: 1.9876,
                     fixed: 1.9567,
                 }),
+                messages: None,
                 idle: vec![0.0005, 0.0],
             },
             hash: 0x0012_3456_789a_bcde,
@@ -196,6 +210,7 @@ pub(crate) mod tests {
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
             r#""threads":2,"schedule":"dynamic","packet":{"rows":4,"columns":null},"packets":64,"#,
             r#""forecast":{"probed":324,"simulated":6,"seconds":0.00025,"speed_up":1.9876,"fixed":1.9567},"#,
+            r#""messages":null,"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );
         assert_eq!(text, expected);

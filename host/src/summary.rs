@@ -2,7 +2,7 @@
 
 use crate::facts::thousands;
 use crate::packing::{self, Forecast};
-use crate::stats::Stats;
+use crate::stats::{Messages, Stats};
 use std::fmt;
 
 /// Shows [`Stats`] as aligned lines, each ended.
@@ -56,6 +56,9 @@ impl fmt::Display for Summary<'_> {
         line(f, "work", &work(stats))?;
         if let Some(forecast) = &stats.work.forecast {
             line(f, "packing", &packing(forecast))?;
+        }
+        if let Some(sent) = &stats.work.messages {
+            line(f, "messages", &messages(sent))?;
         }
         line(f, "idle", &idle(&stats.work.idle))?;
         Ok(())
@@ -118,8 +121,9 @@ fn work(stats: &Stats) -> String {
     };
     let work = &stats.work;
     let plural = |count| if count == 1 { "" } else { "s" };
+    let one = work.messages.map_or("thread", |_| "rank");
     format!(
-        "{speed}{} thread{}, {} packet{} of {}, {} schedule",
+        "{speed}{} {one}{}, {} packet{} of {}, {} schedule",
         work.threads,
         plural(work.threads),
         thousands(work.packets as u64),
@@ -143,6 +147,21 @@ fn packing(forecast: &Forecast) -> String {
         thousands(*probed),
         duration(*seconds),
         packing::FIXED.1
+    )
+}
+
+/// What came back from other ranks.
+fn messages(sent: &Messages) -> String {
+    let Messages {
+        count,
+        bytes,
+        seconds,
+    } = *sent;
+    format!(
+        "{} packets in {} bytes came back from other ranks, {} each for the first one",
+        thousands(count),
+        thousands(bytes),
+        duration(seconds / count.max(1) as f64)
     )
 }
 
@@ -218,6 +237,21 @@ idle          500 us, 0 us
             text.contains("\ntoo coarse    f32 resolves little\n"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn messages_between_ranks_are_told() {
+        let mut stats = example();
+        stats.work.messages = Some(Messages {
+            count: 1000,
+            bytes: 772_000,
+            seconds: 0.004,
+        });
+        let text = Summary(&stats).to_string();
+        assert!(text.contains("2 ranks, 64 packets"), "{text}");
+        let told =
+            "messages      1,000 packets in 772,000 bytes came back from other ranks, 4 us each";
+        assert!(text.contains(told), "{text}");
     }
 
     #[test]

@@ -1,18 +1,23 @@
 //! `octray schedule`: how well a picture is shared, over policies, packets and numbers of processors.
 
+mod chart;
+
+use crate::canvas;
 use crate::check;
 use crate::cost::{CostMap, dearest_first};
 use crate::deal::{Deal, Policy};
 use crate::engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use crate::job::{Arith, TreeOptions, ViewOptions};
 use crate::output;
 use crate::packets::Shape;
 use crate::simulate::{Machine, Outcome, simulate};
+use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_core::packet::Region;
 use serde::Serialize;
+use std::io;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -27,14 +32,22 @@ pub struct SweepJob {
     pub shapes: Vec<Shape>,
     /// Ways to deal them.
     pub policies: Vec<Policy>,
-    /// Columns and rows; the scene's own if `None`.
-    pub size: Option<(u32, u32)>,
     /// The arithmetic to trace in.
     pub arith: Arith,
+    /// The octree.
+    pub tree: TreeOptions,
+    /// What to trace.
+    pub view: ViewOptions,
     /// The machine.
     pub machine: Machine,
+    /// Instructions beside [`Machine::hand_out`] for each pixel of a packet that comes from others.
+    pub per_pixel: f64,
     /// Whether to print JSON.
     pub json: bool,
+    /// Where to write every combination as CSV.
+    pub csv: Option<PathBuf>,
+    /// Where to draw them.
+    pub chart: Option<PathBuf>,
 }
 
 /// One combination, and what comes of it.
@@ -59,28 +72,24 @@ pub struct Run {
 /// When the scene is refused or does not fit the arithmetic, when interrupted, or when standard output cannot
 /// be written.
 pub fn run(job: &SweepJob, interrupt: &Interrupt) -> Result<(), Error> {
+    for path in job.csv.iter().chain(&job.chart) {
+        output::probe(path)?;
+    }
     let scene = check::read(&job.scene)?;
-    let tree = TreeOptions {
-        kind: Tree::Tight,
-        depth: None,
-        leaf_size: None,
-        arena: None,
-        link: Link::Shape,
-    };
-    let view = ViewOptions {
-        size: job.size,
-        pixels_per_ray: PixelsPerRay::One,
-        samples: 1,
-        max_depth: 8,
-        cut_off: 1.0 / 512.0,
-    };
-    let engine = engine::build(&scene, job.arith, &tree, &view)?;
+    let engine = engine::build(&scene, job.arith, &job.tree, &job.view)?;
     let map = CostMap::probe(&*engine, NonZeroU32::MIN, interrupt)?;
-    let region = Region {
-        columns: 0..engine.built().size.0,
-        rows: engine.built().active.rows.clone(),
-    };
+    let region = engine.built().region();
     let runs = sweep(job, &map, &region, interrupt)?;
+    if let Some(path) = &job.csv {
+        output::write_file(path, interrupt, |out| write_csv(&runs, out))?;
+    }
+    if let Some(path) = &job.chart {
+        let (width, height) = engine.built().size;
+        let name = job.scene.file_stem().unwrap_or_default().to_string_lossy();
+        let title = format!("How well {name} at {width} x {height} is shared");
+        let chart = Chart::new(title, &runs, &job.policies, &job.shapes, &job.processors);
+        canvas::write_figure(path, &chart, interrupt)?;
+    }
     output::write_stdout(interrupt, |out| match job.json {
         true => {
             let total = map.total();
@@ -104,6 +113,12 @@ fn sweep(
         interrupt.check()?;
         let costs: Vec<f64> = packet.cut(region).map(|part| map.cost(&part)).collect();
         let order = dearest_first(&costs);
+        let width = packet.columns.map_or(region.columns.end, NonZeroU32::get);
+        let pixels = f64::from(width) * f64::from(packet.rows.get());
+        let machine = Machine {
+            hand_out: job.machine.hand_out + job.per_pixel * pixels,
+            ..job.machine
+        };
         for &policy in &job.policies {
             for &processors in &job.processors {
                 let deal = Deal::new(policy, costs.len(), processors, order.clone());
@@ -112,12 +127,46 @@ fn sweep(
                     packet,
                     packets: costs.len(),
                     processors,
-                    outcome: simulate(&costs, &deal, &job.machine),
+                    outcome: simulate(&costs, &deal, &machine),
                 });
             }
         }
     }
     Ok(runs)
+}
+
+/// One line for each combination.
+fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record([
+        "policy",
+        "rows",
+        "columns",
+        "packets",
+        "processors",
+        "time",
+        "speed_up",
+        "efficiency",
+    ])?;
+    for run in runs {
+        let Outcome {
+            time,
+            speed_up,
+            efficiency,
+        } = run.outcome;
+        let columns = run.packet.columns;
+        csv.write_record([
+            run.policy.name().to_owned(),
+            run.packet.rows.to_string(),
+            columns.map_or(String::new(), |columns| columns.to_string()),
+            run.packets.to_string(),
+            run.processors.to_string(),
+            time.to_string(),
+            speed_up.to_string(),
+            efficiency.to_string(),
+        ])?;
+    }
+    csv.flush()
 }
 
 /// For each number of processors the best speed-up of each policy, in strips and in tiles, and the packet.

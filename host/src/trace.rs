@@ -1,7 +1,7 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
 use crate::deal::Deal;
-use crate::engine::{self, Engine, Worker};
+use crate::engine::{self, Built, Engine, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::RenderJob;
@@ -17,7 +17,7 @@ use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The function that all tracing of [`trace`] happens in, as Callgrind names it.
 pub const TRACING: &str = "octray::trace::trace_packet";
@@ -39,9 +39,22 @@ pub fn trace(
     let build = begin.elapsed();
     let begin = Instant::now();
     let (picture, counters, work, saturations) = render(&*engine, job, progress, interrupt)?;
-    let render = begin.elapsed();
+    let times = (build, begin.elapsed());
     let built = engine.built();
-    Ok(Traced {
+    Ok(traced(built, picture, &counters, saturations, times, work))
+}
+
+/// A picture that was traced, and what it cost: counted events, saturations, the time to build and the time
+/// to trace.
+pub(crate) fn traced(
+    built: &Built,
+    picture: Picture,
+    counters: &Counters,
+    saturations: u64,
+    (build, render): (Duration, Duration),
+    work: Work,
+) -> Traced {
+    Traced {
         picture,
         format: built.format.into(),
         scale: built.scale,
@@ -61,7 +74,21 @@ pub fn trace(
         build,
         render,
         work,
-    })
+    }
+}
+
+/// A picture of which nothing is traced yet, and the region that is to be.
+///
+/// # Errors
+/// [`Error::Failed`] if it does not fit into memory.
+pub(crate) fn blank(engine: &dyn Engine, job: &RenderJob) -> Result<(Picture, Region), Error> {
+    let built = engine.built();
+    let (width, height) = built.size;
+    let mut picture = Picture::black(width, height, job.output.holds_intensities())
+        .ok_or_else(|| Error::Failed("the picture does not fit into memory".into()))?;
+    let region = built.region();
+    picture.fill_outside(region.rows.clone(), built.background);
+    Ok((picture, region))
 }
 
 /// Deals the picture's packets to threads. Returns it with what they counted (counting costs less than
@@ -72,15 +99,7 @@ fn render(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
-    let built = engine.built();
-    let (width, height) = built.size;
-    let mut picture = Picture::black(width, height, job.output.holds_intensities())
-        .ok_or_else(|| Error::Failed("the picture does not fit into memory".into()))?;
-    let region = Region {
-        columns: 0..width,
-        rows: built.active.rows.clone(),
-    };
-    picture.fill_outside(region.rows.clone(), built.background);
+    let (mut picture, region) = blank(engine, job)?;
     // Those of the probe are not the picture's.
     let before = scalar::saturations();
     let packing = packing::choose(engine, &region, &job.work, interrupt)?;
@@ -116,6 +135,7 @@ fn render(
         packet: packing.shape,
         packets: count,
         forecast: packing.forecast,
+        messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
     let saturations = scalar::saturations().wrapping_sub(probed);

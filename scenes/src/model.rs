@@ -12,6 +12,7 @@ pub type Colour = [f64; 3];
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
     /// Where the picture is seen from.
     pub camera: Camera,
@@ -35,6 +36,7 @@ pub struct Scene {
 
 /// The camera of `docs/MODEL.md` in either of its forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Camera {
     /// The picture plane is z = 0 and one pixel (of the file's own resolution) is one unit.
     Thesis {
@@ -60,6 +62,7 @@ pub enum Camera {
 
 /// How rays leave the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Projection {
     /// From the eye through the picture plane.
     Perspective,
@@ -69,6 +72,7 @@ pub enum Projection {
 
 /// A point light.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Light {
     /// Where it is.
     pub position: Point,
@@ -79,6 +83,7 @@ pub struct Light {
 
 /// The properties of a surface, in the thesis's terms whatever the dialect. The default is black.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surface {
     /// Light the surface shows without any light source.
     pub ambient: Colour,
@@ -112,6 +117,7 @@ impl Default for Surface {
 
 /// One object.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Object {
     /// Its geometry.
     pub shape: Shape,
@@ -121,6 +127,7 @@ pub struct Object {
 
 /// The geometry of one object.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape {
     /// A sphere.
     Sphere {

@@ -123,6 +123,7 @@ fn the_json_object_has_the_documented_fields() {
         "packet",
         "packets",
         "forecast",
+        "messages",
         "idle",
         "hash",
     ];
@@ -416,4 +417,35 @@ fn an_interrupt_leaves_no_half_file() {
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(text(&output.stdout), "");
     assert_eq!(names(folder.path()), ["a.scene"]);
+}
+
+#[test]
+fn a_sweep_over_schedules_is_told_drawn_and_written() {
+    let folder = folder();
+    let line =
+        "schedule a.scene --processors 1,8 --packet-rows 1..8 --tiles 8 --policy static,dynamic";
+    let table = done(
+        folder.path(),
+        &format!("{line} -o chart.svg --csv runs.csv --hand-out 500 --per-pixel 2"),
+    );
+    assert!(table.contains("| 8          | tiles   |"), "{table}");
+    let chart = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
+    assert!(chart.contains("How well a at 80 x 60 is shared"));
+    let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
+    // Two policies, five packets, two numbers of processors.
+    assert_eq!(runs.lines().count(), 1 + 2 * 5 * 2);
+    let fewer = done(
+        folder.path(),
+        &format!("{line} --pixels-per-ray 4 --samples 1 --json"),
+    );
+    let fewer: Value = serde_json::from_str(&fewer).unwrap();
+    assert_eq!(fewer["runs"].as_array().map(Vec::len), Some(2 * 4 * 2));
+    for wrong in [
+        "-o a.txt",
+        "-o a.scene",
+        "-o b.svg --csv b.svg",
+        "--pixels-per-ray 4 --packet-rows 1 --tiles 5",
+    ] {
+        failed(folder.path(), &format!("schedule a.scene {wrong}"), 2);
+    }
 }

@@ -45,7 +45,8 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
                     self.found = Some(object);
                     return true;
                 }
-                if t < self.limit || self.precedes(object) {
+                let first = |found| precedes(self.scene, object, found);
+                if t < self.limit || self.found.is_none_or(first) {
                     self.limit = t;
                     self.found = Some(object);
                 }
@@ -57,13 +58,6 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
         false
     }
 
-    /// Whether an object at the very distance of the one found comes before it in the scene file.
-    #[cold]
-    fn precedes(&self, object: ObjectRef) -> bool {
-        let id = |object| self.scene.attributes_of(object).id;
-        self.found.is_none_or(|found| id(object) < id(found))
-    }
-
     #[inline(always)]
     pub(super) fn hit(self) -> Option<Hit<S>> {
         self.found.map(|object| Hit {
@@ -71,4 +65,16 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
             object,
         })
     }
+}
+
+/// Whether an object at the very distance of the one found comes before it in the scene file.
+#[cold]
+#[inline(never)]
+fn precedes<S: Scalar, const NEEDS: Needs>(
+    scene: &Scene<'_, S, NEEDS>,
+    object: ObjectRef,
+    found: ObjectRef,
+) -> bool {
+    let id = |object| scene.attributes_of(object).id;
+    id(object) < id(found)
 }

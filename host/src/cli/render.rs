@@ -66,7 +66,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "BY", value_enum, default_value_t, help_heading = OCTREE)]
     link: Link,
 
-    /// How many threads trace [default: one for each core]
+    /// How many threads trace [default: one for each core; on each rank of --mpi one]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>, help_heading = WORK)]
     threads: Option<NonZeroUsize>,
     /// Which thread gets which packet [default: chosen for the scene, told in the statistics]
@@ -81,11 +81,17 @@ pub struct RenderArgs {
     /// Keep each thread on one core
     #[arg(long, help_heading = WORK)]
     pin: bool,
+    /// Share the work among the ranks that mpirun has started, each on one thread
+    #[arg(long, help_heading = WORK)]
+    mpi: bool,
 }
 
 const RAYS: &str = "Rays";
 const OCTREE: &str = "Octree";
 const WORK: &str = "Threads";
+
+const NO_MPI: &str = "this octray was built without MPI; install libopenmpi-dev and libclang-dev, and build it with \
+    'cargo build --release --features mpi'";
 
 impl RenderArgs {
     /// The job that these arguments ask for.
@@ -105,6 +111,14 @@ impl RenderArgs {
                 );
             }
         }
+        let threads = match self.mpi {
+            true if !cfg!(feature = "mpi") => return usage(NO_MPI),
+            true if self.threads.is_some_and(|threads| threads.get() > 1) => {
+                return usage("with --mpi, a rank traces on one thread; start more ranks instead");
+            }
+            true => Some(NonZeroUsize::MIN),
+            false => self.threads,
+        };
         let output = match self.output {
             Some(output) => output,
             None => {
@@ -142,7 +156,7 @@ impl RenderArgs {
                 cut_off: self.cut_off,
             },
             work: WorkOptions {
-                threads: self.threads.unwrap_or(WorkOptions::default().threads),
+                threads: threads.unwrap_or(WorkOptions::default().threads),
                 policy: self.schedule,
                 packet: match (self.packet_rows, self.packet_columns) {
                     (None, None) => None,
@@ -152,6 +166,7 @@ impl RenderArgs {
                     }),
                 },
                 pin: self.pin,
+                mpi: self.mpi,
             },
             stats: self.stats,
         })
@@ -232,6 +247,7 @@ mod tests {
                 columns: NonZeroU32::new(8),
             }),
             pin: true,
+            mpi: false,
         };
         assert_eq!(job.work, work);
     }
@@ -279,6 +295,20 @@ mod tests {
             let line = format!("a.scene --pixels-per-ray 4 {flags}");
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");
+        }
+    }
+
+    #[test]
+    fn ranks_trace_on_one_thread_and_only_with_mpi() {
+        let asked = |flags| parse(&format!("a.scene --mpi {flags}")).unwrap().job();
+        let told = |flags| asked(flags).unwrap_err().to_string();
+        match cfg!(feature = "mpi") {
+            true => {
+                let work = asked("").unwrap().work;
+                assert!(work.mpi && work.threads.get() == 1);
+                assert!(told("--threads 2").contains("start more ranks"));
+            }
+            false => assert!(told("").contains("--features mpi"), "{}", told("")),
         }
     }
 

@@ -1,12 +1,15 @@
 //! Arguments of `octray schedule`.
 
 use super::value;
+use crate::canvas;
 use crate::deal::Policy;
-use crate::job::Arith;
+use crate::error::Error;
+use crate::job::{Arith, DEEPEST, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use crate::packets::Shape;
+use crate::picture::Target;
 use crate::simulate::Machine;
 use crate::sweep::SweepJob;
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, value_parser};
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -36,9 +39,24 @@ pub struct ScheduleArgs {
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_enum, default_value_t)]
     arith: Arith,
+    /// Pixels that one ray colours; packets whose sides are odd are left out with 4
+    #[arg(long, value_name = "N", value_enum, default_value_t)]
+    pixels_per_ray: PixelsPerRay,
+    /// Trace K x K rays per pixel
+    #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64))]
+    samples: u32,
+    /// How often a ray may bounce
+    #[arg(long, value_name = "D", default_value_t = 8, value_parser = value_parser!(u32).range(..=i64::from(DEEPEST)))]
+    max_depth: u32,
+    /// The kind of octree
+    #[arg(long, value_name = "KIND", value_enum, default_value_t)]
+    tree: Tree,
     /// Instructions for which a packet that comes from others keeps them from handing out another
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
+    /// The same for each pixel of the packet, where pixels come back in messages
+    #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
+    per_pixel: f64,
     /// By how much of itself each further busy processor slows all of them
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
@@ -48,35 +66,84 @@ pub struct ScheduleArgs {
     /// Print one JSON object with every combination instead of a table of the best
     #[arg(long)]
     json: bool,
+    /// Write every combination to a file
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    /// Draw heat maps of packets by processors, and efficiency by processors: .svg, .png, .ppm or .ras
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 impl ScheduleArgs {
     /// The job that these arguments ask for.
-    pub fn job(self) -> SweepJob {
-        let strips = self.packet_rows.0.into_iter().map(Shape::strip);
-        let tiles = self.tiles.0.into_iter().map(|side| Shape {
+    ///
+    /// # Errors
+    /// [`Error::Usage`] when no packet is left with four pixels per ray, two files have the same name, or the
+    /// chart's name says nothing known.
+    pub fn job(self) -> Result<SweepJob, Error> {
+        let usage = |text: &str| Err(Error::Usage(text.into()));
+        if self.output.is_some() && self.output == self.csv {
+            return usage("--output and --csv name the same file");
+        }
+        if self
+            .output
+            .iter()
+            .chain(&self.csv)
+            .any(|path| *path == self.scene)
+        {
+            return usage("a result would replace the scene file");
+        }
+        if let Some(path) = self.output.iter().find(|path| !canvas::is_svg(path)) {
+            Target::new(path.clone()).map_err(Error::Usage)?;
+        }
+        let even = self.pixels_per_ray == PixelsPerRay::Four;
+        let fits = |side: &NonZeroU32| !even || side.get().is_multiple_of(2);
+        let strips = self.packet_rows.0.into_iter().filter(fits);
+        let tiles = self.tiles.0.into_iter().filter(fits).map(|side| Shape {
             rows: side,
             columns: Some(side),
         });
+        let shapes: Vec<_> = strips.map(Shape::strip).chain(tiles).collect();
+        if shapes.is_empty() {
+            return usage(
+                "with --pixels-per-ray 4, a side of --packet-rows or --tiles must be even",
+            );
+        }
         let processors = self.processors.0.into_iter();
-        SweepJob {
+        Ok(SweepJob {
             scene: self.scene,
             processors: processors
                 .filter_map(|count: NonZeroU32| NonZeroUsize::try_from(count).ok())
                 .collect(),
-            shapes: strips.chain(tiles).collect(),
+            shapes,
             policies: match self.policy.is_empty() {
                 true => Policy::value_variants().to_vec(),
                 false => self.policy,
             },
-            size: self.size,
             arith: self.arith,
+            tree: TreeOptions {
+                kind: self.tree,
+                depth: None,
+                leaf_size: None,
+                arena: None,
+                link: Link::Shape,
+            },
+            view: ViewOptions {
+                size: self.size,
+                pixels_per_ray: self.pixels_per_ray,
+                samples: self.samples,
+                max_depth: self.max_depth,
+                cut_off: 1.0 / 512.0,
+            },
             machine: Machine {
                 hand_out: self.hand_out,
                 contention: self.contention,
                 serial: self.serial,
             },
+            per_pixel: self.per_pixel,
             json: self.json,
-        }
+            csv: self.csv,
+            chart: self.output,
+        })
     }
 }

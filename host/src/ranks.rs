@@ -1,0 +1,176 @@
+//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals packets, traces some
+//! itself and writes the picture; the others need no files.
+//!
+//! The scene is broadcast once, parsed. A rank has two packets in hand, so it need not wait for the next one while
+//! its answer is on the way. Every rank traces on one thread, and the first answers the others between its own
+//! packets. If a rank dies, `mpirun` says so and ends the others; the picture is written only when all of it is there.
+
+mod lead;
+mod serve;
+
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::{Arith, RenderJob, TreeOptions, ViewOptions};
+use crate::packets::Shape;
+use crate::render;
+use lead::Leader;
+use mpi::point_to_point::{Message, Status};
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, Root, Source};
+use octray_core::observe::Counters;
+use octray_scenes::model::Scene;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::thread;
+use std::time::Duration;
+
+/// What a rank asks for at first: a packet.
+const REQUEST: i32 = 1;
+/// A packet that was traced: its number and its pixels. It asks for another one.
+const RESULT: i32 = 2;
+/// What a rank counted, when it has no more packets.
+const TALLY: i32 = 3;
+/// The number of a packet to be traced, or [`NONE`].
+const PACKET: i32 = 4;
+
+/// No packet is left.
+const NONE: u32 = u32::MAX;
+
+/// Packets that a rank has in hand.
+const IN_HAND: usize = 2;
+
+/// For how long a rank sleeps when there is no message.
+const PAUSE: Duration = Duration::from_micros(20);
+
+/// All that a rank needs to know.
+#[derive(Serialize, Deserialize)]
+struct Plan<'a> {
+    scene: Cow<'a, Scene>,
+    arith: Arith,
+    tree: TreeOptions,
+    view: ViewOptions,
+    shape: Shape,
+    /// Whether intensities are wanted beside levels.
+    intensities: bool,
+}
+
+/// What a rank did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Tally {
+    rays: [u64; 4],
+    hits: [u64; 4],
+    blocked: u64,
+    steps: u64,
+    tests: u64,
+    deepest: u64,
+    saturations: u32,
+    /// Seconds in which it traced.
+    busy: f64,
+}
+
+impl Tally {
+    fn new(counters: &Counters, saturations: u32, busy: Duration) -> Self {
+        Self {
+            rays: counters.rays,
+            hits: counters.hits,
+            blocked: counters.blocked,
+            steps: counters.steps,
+            tests: counters.tests,
+            deepest: counters.deepest,
+            saturations,
+            busy: busy.as_secs_f64(),
+        }
+    }
+
+    fn counters(&self) -> Counters {
+        Counters {
+            rays: self.rays,
+            blocked: self.blocked,
+            hits: self.hits,
+            steps: self.steps,
+            tests: self.tests,
+            deepest: self.deepest,
+        }
+    }
+}
+
+/// Do `job` together with the other ranks; every rank calls this.
+///
+/// # Errors
+/// On the first rank what [`render::run`] fails with. [`Error::Failed`] when MPI cannot be started, or the
+/// ranks are ended before the picture is done.
+pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
+    let universe = mpi::initialize().ok_or_else(|| failed("MPI cannot be started".into()))?;
+    let world = universe.world();
+    let done = match world.rank() {
+        0 => {
+            let mut leader = Leader::new(&world);
+            let done = render::run(job, interrupt, |scene, job, progress, interrupt| {
+                leader.trace(scene, job, progress, interrupt)
+            });
+            if leader.waited_for() {
+                broadcast::<Plan<'_>>(&world, None);
+            }
+            match leader.alone() {
+                true => done,
+                false => return abandon(universe, done),
+            }
+        }
+        rank => match serve::serve(&world, interrupt) {
+            Ok(()) => Ok(()),
+            // The first rank says it for all.
+            Err(Error::Interrupted) => std::process::exit(crate::interrupt::EXIT_CODE),
+            Err(error) => {
+                let told = Err(failed(format!("rank {rank}: {error}")));
+                return abandon(universe, told);
+            }
+        },
+    };
+    drop(universe);
+    done
+}
+
+/// Ends without a farewell to the ranks that are still at work: they would never answer it. `mpirun` ends them.
+fn abandon(universe: mpi::environment::Universe, done: Result<(), Error>) -> Result<(), Error> {
+    std::mem::forget(universe);
+    done.map_err(|error| match error {
+        Error::Interrupted => failed(
+            "the ranks were ended before the picture was done, and mpirun tells why; no picture was written"
+                .into(),
+        ),
+        error => error,
+    })
+}
+
+/// Hands what the first rank has to all others.
+fn broadcast<T: Serialize>(world: &SimpleCommunicator, value: Option<&T>) {
+    // It fails only for types that postcard cannot write, and these it can.
+    let mut bytes = postcard::to_stdvec(&value).unwrap_or_default();
+    let mut length = bytes.len() as u64;
+    let first = world.process_at_rank(0);
+    first.broadcast_into(&mut length);
+    first.broadcast_into(&mut bytes[..]);
+}
+
+/// What the first rank broadcasts.
+fn receive_broadcast(world: &SimpleCommunicator) -> Vec<u8> {
+    let first = world.process_at_rank(0);
+    let mut length = 0_u64;
+    first.broadcast_into(&mut length);
+    let mut bytes = vec![0; length as usize];
+    first.broadcast_into(&mut bytes[..]);
+    bytes
+}
+
+/// The next message from `source`, if one has come.
+fn arrived(source: &impl Source) -> Option<(Message, Status)> {
+    source.immediate_matched_probe()
+}
+
+fn pause() {
+    thread::sleep(PAUSE);
+}
+
+fn failed(text: String) -> Error {
+    Error::Failed(text)
+}

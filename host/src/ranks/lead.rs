@@ -1,0 +1,228 @@
+//! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
+
+use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, failed, pause};
+use crate::deal::Deal;
+use crate::engine;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::{RenderJob, WorkOptions};
+use crate::packets::{Packet, Packets};
+use crate::packing;
+use crate::progress::Progress;
+use crate::render::Traced;
+use crate::stats::{Messages, Work};
+use crate::trace;
+use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, Destination};
+use octray_core::observe::Counters;
+use octray_core::scalar;
+use octray_scenes::model::Scene;
+use std::borrow::Cow;
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+/// The first rank.
+pub(super) struct Leader<'a> {
+    world: &'a SimpleCommunicator,
+    state: State,
+}
+
+/// What the other ranks do.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// They wait for the scene.
+    Waiting,
+    /// They trace.
+    Working,
+    /// They have done all there was.
+    Done,
+}
+
+impl<'a> Leader<'a> {
+    pub(super) fn new(world: &'a SimpleCommunicator) -> Self {
+        let state = State::Waiting;
+        Self { world, state }
+    }
+
+    /// Whether the others still wait to be told what to do.
+    pub(super) fn waited_for(&self) -> bool {
+        self.state == State::Waiting
+    }
+
+    /// Whether no other rank is at work.
+    pub(super) fn alone(&self) -> bool {
+        self.state != State::Working
+    }
+
+    /// Trace what the job asks for, together with the others.
+    ///
+    /// # Errors
+    /// As [`trace::trace`], and [`Error::Failed`] when a message makes no sense.
+    pub(super) fn trace(
+        &mut self,
+        scene: &Scene,
+        job: &RenderJob,
+        progress: &Progress,
+        interrupt: &Interrupt,
+    ) -> Result<Traced, Error> {
+        scalar::reset_saturations();
+        let begin = Instant::now();
+        let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
+        let build = begin.elapsed();
+        let begin = Instant::now();
+        let (mut picture, region) = trace::blank(&*engine, job)?;
+        let ranks = self.world.size() as usize;
+        let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
+        let before = scalar::saturations();
+        let work = WorkOptions {
+            threads,
+            ..job.work
+        };
+        let packing = packing::choose(&*engine, &region, &work, interrupt)?;
+        let probed = scalar::saturations().wrapping_sub(before);
+        let plan = Plan {
+            scene: Cow::Borrowed(scene),
+            arith: job.arith,
+            tree: job.tree,
+            view: job.view,
+            shape: packing.shape,
+            intensities: job.output.holds_intensities(),
+        };
+        broadcast(self.world, Some(&plan));
+        self.state = State::Working;
+        let packets = Packets::cut(&mut picture, &region, packing.shape);
+        let count = packets.len();
+        progress.start(count);
+        let (counters, busy, messages, tallies) = {
+            let mut desk = Desk {
+                world: self.world,
+                deal: Deal::new(packing.policy, count, threads, packing.order),
+                packets,
+                progress,
+                messages: Messages::default(),
+                tallies: vec![None; ranks],
+            };
+            let (counters, busy) = desk.run(&*engine, interrupt)?;
+            (counters, busy, desk.messages, desk.tallies)
+        };
+        self.state = State::Done;
+        let own = scalar::saturations().wrapping_sub(probed);
+        let own = Tally::new(&counters, own, busy);
+        let (mut counters, mut saturations) = (Counters::default(), 0);
+        let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
+        for tally in &tallies {
+            counters.add(&tally.counters());
+            saturations += u64::from(tally.saturations);
+        }
+        let times = (build, begin.elapsed());
+        let idle = |tally: &Tally| (times.1.as_secs_f64() - tally.busy).max(0.0);
+        let work = Work {
+            threads: ranks,
+            schedule: packing.policy,
+            packet: packing.shape,
+            packets: count,
+            forecast: packing.forecast,
+            messages: Some(messages),
+            idle: tallies.iter().map(idle).collect(),
+        };
+        let built = engine.built();
+        Ok(trace::traced(
+            built,
+            picture,
+            &counters,
+            saturations,
+            times,
+            work,
+        ))
+    }
+}
+
+/// Where packets are handed out and taken back.
+struct Desk<'a> {
+    world: &'a SimpleCommunicator,
+    deal: Deal,
+    packets: Packets<'a>,
+    progress: &'a Progress,
+    messages: Messages,
+    /// What the other ranks did, once they have told.
+    tallies: Vec<Option<Tally>>,
+}
+
+impl Desk<'_> {
+    /// Traces packets, and answers the others between them, until all have done all there is. Returns what
+    /// was counted here, and the time spent tracing.
+    fn run(
+        &mut self,
+        engine: &dyn engine::Engine,
+        interrupt: &Interrupt,
+    ) -> Result<(Counters, Duration), Error> {
+        let mut worker = engine.worker();
+        let mut busy = Duration::ZERO;
+        loop {
+            interrupt.check()?;
+            while let Some((message, status)) = arrived(&self.world.any_process()) {
+                self.answer(message, status)?;
+            }
+            let next = self.deal.next(0);
+            if let Some(packet) = next.and_then(|dealt| self.packets.take(dealt.packet)) {
+                let begin = Instant::now();
+                worker.trace(packet);
+                busy += begin.elapsed();
+                self.progress.step();
+            } else if self.tallies.iter().skip(1).all(Option::is_some) {
+                return Ok((*worker.counters(), busy));
+            } else {
+                pause();
+            }
+        }
+    }
+
+    /// Takes what a rank has done, and gives it something to do.
+    fn answer(&mut self, message: Message, status: Status) -> Result<(), Error> {
+        let begin = Instant::now();
+        let (rank, tag) = (status.source_rank(), status.tag());
+        let nonsense = || failed(format!("a message from rank {rank} makes no sense"));
+        let (bytes, _) = (message, status).matched_receive_vec::<u8>();
+        if tag == TALLY {
+            let tally = postcard::from_bytes(&bytes).map_err(|_| nonsense())?;
+            self.tallies[rank as usize] = Some(tally);
+            return Ok(());
+        }
+        if tag == RESULT {
+            self.keep(&bytes).ok_or_else(nonsense)?;
+            self.progress.step();
+        }
+        let next = self.deal.next(rank as usize);
+        let next = next.map_or(NONE, |dealt| dealt.packet as u32);
+        let to = self.world.process_at_rank(rank);
+        to.send_with_tag(&next.to_le_bytes()[..], PACKET);
+        self.messages.count += u64::from(tag == RESULT);
+        self.messages.bytes += bytes.len() as u64;
+        self.messages.seconds += begin.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Puts a packet that was traced into the picture; `None` if it is none.
+    fn keep(&self, bytes: &[u8]) -> Option<()> {
+        let (index, pixels) = bytes.split_first_chunk()?;
+        let Packet {
+            region,
+            levels,
+            intensities,
+        } = self.packets.take(u32::from_le_bytes(*index) as usize)?;
+        let width = region.columns.len();
+        let (mut coarse, fine) = pixels.split_at_checked(3 * width * region.rows.len())?;
+        for row in levels {
+            let (bytes, rest) = coarse.split_at(3 * width);
+            row.as_flattened_mut().copy_from_slice(bytes);
+            coarse = rest;
+        }
+        let (fine, rest) = fine.as_chunks();
+        let mut fine = fine.iter().map(|bytes| f32::from_le_bytes(*bytes));
+        for value in intensities.into_iter().flatten().flatten().flatten() {
+            *value = fine.next()?;
+        }
+        (rest.is_empty() && fine.next().is_none()).then_some(())
+    }
+}
