@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 
 fn report(folder: &Path, line: &str) -> Output {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    fs::copy(scenes.join("glass.scene"), folder.join("a b.scene")).unwrap();
+    fs::copy(scenes.join("patches.scene"), folder.join("a b.scene")).unwrap();
     Command::new(cargo_bin!("octray"))
         .current_dir(folder)
         .args(["report", "a b.scene"])
@@ -54,7 +54,7 @@ fn a_tool_that_is_missing_is_told_in_the_page() {
     let output = Command::new(cargo_bin!("octray"))
         .env("PATH", "")
         .arg("report")
-        .arg(scenes.join("glass.scene"))
+        .arg(scenes.join("patches.scene"))
         .args(["--arith", "f32", "--cost", "m3", "--size", "16x12", "-o"])
         .arg(folder.path().join("a.html"))
         .output()

@@ -5,7 +5,7 @@ use super::setting::Setting;
 use crate::engine::{self, Engine, FirstHit};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, DEEPEST, PixelsPerRay, RenderJob, StatsFormat, Tree, WorkOptions};
+use crate::job::{Arith, PixelsPerRay, RenderJob, StatsFormat, Tree, WorkOptions};
 use crate::metric::Difference;
 use crate::picture::{Format, Picture, RasDepth, Target};
 use crate::progress::Progress;
@@ -61,8 +61,13 @@ struct Exact {
     engine: Box<dyn Engine>,
 }
 
+/// Bounces of the converged picture, and the weight below which a ray is not traced: a thirtieth of a level. Without
+/// a cut-off, rays within glass would double at every bounce.
+const CONVERGED_DEPTH: u32 = 16;
+const CONVERGED_CUT_OFF: f64 = 1.0 / 8192.0;
+
 impl<'a> Judge<'a> {
-    /// Renders the converged picture: f64, the most bounces there can be, no cut-off, many rays per pixel.
+    /// Renders the converged picture: f64, many rays per pixel, and bounces as long as they change anything.
     ///
     /// # Errors
     /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`].
@@ -70,8 +75,8 @@ impl<'a> Judge<'a> {
         let converged = Setting {
             arith: Arith::F64,
             tree: Tree::Tight,
-            max_depth: DEEPEST,
-            cut_off: 0.0,
+            max_depth: CONVERGED_DEPTH,
+            cut_off: CONVERGED_CUT_OFF,
             pixels_per_ray: PixelsPerRay::One,
             samples: job.converged_samples,
         };

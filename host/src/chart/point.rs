@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub enum Against {
     /// f64 of the same settings: the error of the arithmetic alone.
     Same,
-    /// f64 with many rays per pixel, every bounce and no cut-off: the error of arithmetic and settings together.
+    /// f64 with many rays per pixel and every bounce that shows: the error of arithmetic and settings together.
     Converged,
 }
 
