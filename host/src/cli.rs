@@ -8,6 +8,7 @@ mod check;
 mod diff;
 mod generate;
 mod measure;
+mod plan;
 mod render;
 mod schedule;
 mod stability;
@@ -18,6 +19,7 @@ pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use measure::MeasureArgs;
+pub use plan::PlanArgs;
 pub use render::RenderArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
@@ -50,6 +52,8 @@ pub enum Command {
     Schedule(ScheduleArgs),
     /// Measure what pictures cost on small targets, in an emulator
     Measure(MeasureArgs),
+    /// Find the least a scene needs on a small target, and predict what it costs
+    Plan(PlanArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
 }

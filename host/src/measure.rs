@@ -58,6 +58,34 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     if job.kernels {
         return kernels::run(job, interrupt);
     }
+    let report = measure(job, interrupt)?;
+    if let Some(path) = &job.json {
+        output::write_file(path, interrupt, |out| report.write_json(out))?;
+    }
+    if let Some(path) = &job.csv {
+        output::write_file(path, interrupt, |out| report.write_csv(out))?;
+    }
+    if let Some(path) = &job.chart {
+        let chart = Chart::of(&report.rows).ok_or_else(|| {
+            Error::Failed("no core was measured without and with its floating-point unit".into())
+        })?;
+        canvas::write_figure(path, &chart, interrupt)?;
+    }
+    output::write_stdout(interrupt, |out| {
+        out.write_all(report.text(job.functions).as_bytes())
+    })?;
+    match report.rows.iter().filter(|row| row.cost.is_none()).count() {
+        0 => Ok(()),
+        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
+    }
+}
+
+/// Measure every combination.
+///
+/// # Errors
+/// When something is missing, a scene is refused, or cargo or the emulator cannot be run. A combination that
+/// fails is a row that says so.
+pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report, Error> {
     let root = Workspace::root()?;
     let scenes = match &*job.scenes {
         [] => FIGURES.iter().map(|name| root.join(name)).collect(),
@@ -84,35 +112,19 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     let rows = bench.frames(&scenes, job)?;
     drop(progress);
     let versions = workspace.versions();
-    let report = Report {
+    Ok(Report {
         commit: versions.commit,
         toolchain: versions.toolchain,
         emulator: emulators(&job.boards),
         rows,
-    };
-    if let Some(path) = &job.json {
-        output::write_file(path, interrupt, |out| report.write_json(out))?;
-    }
-    if let Some(path) = &job.csv {
-        output::write_file(path, interrupt, |out| report.write_csv(out))?;
-    }
-    if let Some(path) = &job.chart {
-        let chart = Chart::of(&report.rows).ok_or_else(|| {
-            Error::Failed("no core was measured without and with its floating-point unit".into())
-        })?;
-        canvas::write_figure(path, &chart, interrupt)?;
-    }
-    output::write_stdout(interrupt, |out| {
-        out.write_all(report.text(job.functions).as_bytes())
-    })?;
-    match report.rows.iter().filter(|row| row.cost.is_none()).count() {
-        0 => Ok(()),
-        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
-    }
+    })
 }
 
 /// Builds the plugin that counts.
-fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
+///
+/// # Errors
+/// If it cannot be built.
+pub fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
     let program = Program {
         package: "octray-count",
         arguments: &["--release"],

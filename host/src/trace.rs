@@ -5,7 +5,7 @@ use crate::deal::{Deal, Policy};
 use crate::engine::{self, Engine};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::RenderJob;
+use crate::job::{RenderJob, WorkOptions};
 use crate::packets::{Packets, Shape};
 use crate::picture::Picture;
 use crate::progress::Progress;
@@ -35,7 +35,9 @@ pub fn trace(
     let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let (picture, counters, work, saturations) = render(&*engine, job, progress, interrupt)?;
+    let holds_intensities = job.output.holds_intensities();
+    let rendered = render(&*engine, &job.work, holds_intensities, progress, interrupt)?;
+    let (picture, counters, work, saturations) = rendered;
     let render = begin.elapsed();
     let built = engine.built();
     Ok(Traced {
@@ -62,25 +64,30 @@ pub fn trace(
 
 /// Deals the picture's packets to threads. Returns it with what they counted (counting costs less than
 /// the time of a frame varies), how they worked, and the saturations.
-fn render(
+///
+/// # Errors
+/// [`Error::Failed`] if the picture does not fit into memory or the system refuses a thread;
+/// [`Error::Interrupted`] if it was.
+pub fn render(
     engine: &dyn Engine,
-    job: &RenderJob,
+    job: &WorkOptions,
+    holds_intensities: bool,
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
     let built = engine.built();
     let (width, height) = built.size;
-    let mut picture = Picture::black(width, height, job.output.holds_intensities())
+    let mut picture = Picture::black(width, height, holds_intensities)
         .ok_or_else(|| Error::Failed("the picture does not fit into memory".into()))?;
     let region = Region {
         columns: 0..width,
         rows: built.active.rows.clone(),
     };
     picture.fill_outside(region.rows.clone(), built.background);
-    let (policy, shape) = (job.work.policy, job.work.packet);
+    let (policy, shape) = (job.policy, job.packet);
     let packets = Packets::cut(&mut picture, &region, shape);
     let count = packets.len();
-    let threads = job.work.threads.min(at_least_one(count));
+    let threads = job.threads.min(at_least_one(count));
     // Those of the probe are not the picture's.
     let before = scalar::saturations();
     let order = match policy {
@@ -93,7 +100,7 @@ fn render(
         &Deal::new(policy, count, threads, order),
         interrupt,
         |thread| {
-            if job.work.pin {
+            if job.pin {
                 threads::pin(thread)?;
             }
             Ok(engine.worker())

@@ -15,7 +15,7 @@ mod shapes;
 
 pub use camera::View;
 pub use extent::Extent;
-pub use limits::{Overflow, limits};
+pub use limits::{Bound, Overflow, bounds, limits};
 
 use crate::model;
 use octray_core::packet::Frame;

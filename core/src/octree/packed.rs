@@ -392,7 +392,7 @@ impl Packed<'_> {
         let mut at = 0;
         let mut waiting = 0usize;
         while let Some(header) = Header::read(self.words, at) {
-            search.observer.step();
+            search.observer.step(header.count);
             let [x, y, z] = [0, 1, 2].map(|i| along[i].at(&header, i));
             let base = waiting;
             let first = at + HEADER;

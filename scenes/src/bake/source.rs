@@ -42,6 +42,14 @@ impl Tree {
             _ => &[],
         }
     }
+
+    /// Words that it takes, here or on the device.
+    pub(super) fn room(&self) -> usize {
+        match self {
+            Self::Device(words, _) => *words,
+            _ => self.words().len(),
+        }
+    }
 }
 
 impl<S: Literal> Tables<'_, S> {
