@@ -133,7 +133,8 @@ fn read_plan(path: &Path) -> Result<Plan, String> {
     println!("cargo::rerun-if-changed={}", path.display());
     let at = |error: String| format!("{}: {error}", path.display());
     let text = fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
-    text.parse().map_err(|error: PlanError| at(error.to_string()))
+    text.parse()
+        .map_err(|error: PlanError| at(error.to_string()))
 }
 
 /// Whether walking a tree costs less than trying every object: for fewer of them where a test is

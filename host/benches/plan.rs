@@ -9,10 +9,12 @@ use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray::interrupt::Interrupt;
 use octray::job::Arith;
+use octray::measure;
 use octray::measure::board::{self, Board};
 use octray::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
 use octray::measure::reference::View;
-use octray::measure::{self, report::Report};
+use octray::measure::report::Report;
+use octray::measure::row::{COLUMNS, Row};
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
@@ -28,8 +30,19 @@ const BOARDS: [&str; 6] = ["m0", "m3", "m4", "m4f", "rv32imac", "rv32imafc"];
 
 /// Scenes that are measured with a tree.
 const SCENES: [&str; 13] = [
-    "figure-19", "figure-20", "figure-21", "figure-22", "figure-23", "cones", "glass", "isometric", "lights",
-    "parallel", "patches", "polygons", "raystones",
+    "figure-19",
+    "figure-20",
+    "figure-21",
+    "figure-22",
+    "figure-23",
+    "cones",
+    "glass",
+    "isometric",
+    "lights",
+    "parallel",
+    "patches",
+    "polygons",
+    "raystones",
 ];
 
 /// Those of them that are measured without one as well.
@@ -73,7 +86,11 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let record = host.join("record/plan.csv");
     if !args.fit {
         let report = measure(&args.boards, &scenes, &interrupt)?;
-        report.write_csv(&mut File::create(&record)?)?;
+        let job = MeasureJob {
+            csv: Some(record.clone()),
+            ..job(Vec::new(), TreeKind::Packed, &[])
+        };
+        report.write(&COLUMNS, &job, &interrupt)?;
     }
     let samples: Result<Vec<Sample>, _> = (record::read(File::open(&record)?)?.into_iter())
         .map(|line| line.sample(&scenes, &interrupt))
@@ -90,7 +107,7 @@ fn measure(
     boards: &[String],
     scenes: &Path,
     interrupt: &Interrupt,
-) -> Result<Report, Box<dyn Error>> {
+) -> Result<Report<Row>, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let generated = |objects: usize| -> Result<Vec<PathBuf>, Box<dyn Error>> {
         let write = |kind: Kind| -> Result<PathBuf, Box<dyn Error>> {
@@ -109,9 +126,13 @@ fn measure(
     let twelve = generated(TWELVE)?;
     let with = [shipped(&SCENES), generated(MANY)?, twelve.clone()].concat();
     let without = [shipped(&FEW), twelve].concat();
-    let boards: Result<Vec<Vec<&Board>>, _> = boards.iter().map(|name| board::named(name)).collect();
-    let boards: Vec<&'static Board> = boards?.into_iter().filter_map(|named| named.first().copied()).collect();
-    let mut all: Option<Report> = None;
+    let boards: Result<Vec<Vec<&Board>>, _> =
+        boards.iter().map(|name| board::named(name)).collect();
+    let boards: Vec<&'static Board> = boards?
+        .into_iter()
+        .filter_map(|named| named.first().copied())
+        .collect();
+    let mut all: Option<Report<Row>> = None;
     for (scenes, tree) in [(with, TreeKind::Packed), (without, TreeKind::None)] {
         let report = measure::measure(&job(scenes, tree, &boards), interrupt)?;
         match &mut all {

@@ -95,8 +95,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         Some(plan) => (plan.arith, plan.options(&name)),
         None => (job.arith.name(), chosen),
     };
-    let baked = bake(&scene, arith, &options)
-        .map_err(|error| Error::Failed(error.to_string()))?;
+    let baked = bake(&scene, arith, &options).map_err(|error| Error::Failed(error.to_string()))?;
     interrupt.check()?;
     let write = |out: &mut dyn Write| -> io::Result<()> { out.write_all(baked.source.as_bytes()) };
     match &job.output {

@@ -4,7 +4,7 @@
 //! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
 //! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
 //! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
-//! and [`report`] tells it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
+//! and [`report`] and [`table`] tell it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
 //! [`kernels`] does the same with single operations.
 
 pub mod board;
@@ -21,6 +21,7 @@ pub mod ratio;
 pub mod reference;
 pub mod report;
 pub mod row;
+pub mod table;
 pub mod workspace;
 
 use crate::canvas;
@@ -28,12 +29,12 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
-use board::Board;
 use chart::Chart;
 use emulate::Emulator;
 use frames::{Bench, Named};
 use job::MeasureJob;
-use report::Report;
+use report::{Report, With};
+use row::Row;
 use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
@@ -59,12 +60,7 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         return kernels::run(job, interrupt);
     }
     let report = measure(job, interrupt)?;
-    if let Some(path) = &job.json {
-        output::write_file(path, interrupt, |out| report.write_json(out))?;
-    }
-    if let Some(path) = &job.csv {
-        output::write_file(path, interrupt, |out| report.write_csv(out))?;
-    }
+    report.write(&row::COLUMNS, job, interrupt)?;
     if let Some(path) = &job.chart {
         let chart = Chart::of(&report.rows).ok_or_else(|| {
             Error::Failed("no core was measured without and with its floating-point unit".into())
@@ -72,12 +68,9 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         canvas::write_figure(path, &chart, interrupt)?;
     }
     output::write_stdout(interrupt, |out| {
-        out.write_all(report.text(job.functions).as_bytes())
+        out.write_all(table::text(&report.rows, job.functions).as_bytes())
     })?;
-    match report.rows.iter().filter(|row| row.cost.is_none()).count() {
-        0 => Ok(()),
-        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
-    }
+    all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
 }
 
 /// Measure every combination.
@@ -85,7 +78,7 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// # Errors
 /// When something is missing, a scene is refused, or cargo or the emulator cannot be run. A combination that
 /// fails is a row that says so.
-pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report, Error> {
+pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report<Row>, Error> {
     let root = Workspace::root()?;
     let scenes = match &*job.scenes {
         [] => FIGURES.iter().map(|name| root.join(name)).collect(),
@@ -111,13 +104,18 @@ pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report, Error>
     };
     let rows = bench.frames(&scenes, job)?;
     drop(progress);
-    let versions = workspace.versions();
     Ok(Report {
-        commit: versions.commit,
-        toolchain: versions.toolchain,
-        emulator: emulators(&job.boards),
+        with: With::of(&workspace, &job.boards),
         rows,
     })
+}
+
+/// An error if some of what was to be measured failed.
+fn all_done(failures: usize) -> Result<(), Error> {
+    match failures {
+        0 => Ok(()),
+        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
+    }
 }
 
 /// Builds the plugin that counts.
@@ -134,12 +132,4 @@ pub fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, E
     workspace
         .build(&program, interrupt)?
         .map_err(|why| Error::Failed(format!("the emulator's plugin cannot be built: {why}")))
-}
-
-/// The emulators' versions, each once.
-fn emulators(boards: &[&Board]) -> String {
-    let mut versions: Vec<_> = boards.iter().map(|board| emulate::version(board)).collect();
-    versions.sort();
-    versions.dedup();
-    versions.join(", ")
 }

@@ -89,7 +89,10 @@ fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
         assert!(depth(plan.max_depth), "{name}");
         assert!(plan.max_depth == 0 || !depth(plan.max_depth - 1), "{name}");
         // Two bits less are too few, four pixels to a ray too coarse.
-        let at = FORMATS.iter().position(|(format, _)| *format == plan.arith).unwrap();
+        let at = FORMATS
+            .iter()
+            .position(|(format, _)| *format == plan.arith)
+            .unwrap();
         let narrower = FORMATS[at.checked_sub(1).unwrap()].0;
         let narrower = with(narrower, plan.pixels_per_ray, plan.max_depth);
         assert!(psnr(&narrower) < MIN_PSNR, "{name}: {}", plan.arith);
@@ -116,7 +119,9 @@ fn the_model_predicts_what_was_measured() {
     };
     let mut checked = 0;
     for line in lines.into_iter().filter(|line| ten(&line.scene)) {
-        let sample = line.sample(&root().join("scenes"), &Interrupt::default()).unwrap();
+        let sample = line
+            .sample(&root().join("scenes"), &Interrupt::default())
+            .unwrap();
         let weights = model.of(sample.board.target, sample.family).unwrap();
         let errors = sample.errors(weights);
         let (scene, board, family) = (&sample.line.scene, sample.board, sample.family.name());
@@ -154,7 +159,11 @@ fn predictions_hold_on_emulated_boards() {
         assert!(output.status.success(), "{line}: {told}");
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         for error in report["trial"]["errors"].as_array().unwrap() {
-            assert!(error.as_f64().unwrap().abs() < 0.15, "{line}: {}", report["trial"]);
+            assert!(
+                error.as_f64().unwrap().abs() < 0.15,
+                "{line}: {}",
+                report["trial"]
+            );
         }
     }
 }
@@ -164,7 +173,10 @@ fn what_is_emitted_is_baked() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("figure-22.plan");
     let scene = "scenes/figure-22.scene";
-    let output = octray(&format!("plan {scene} --size 24x18 --emit {}", path.display()));
+    let output = octray(&format!(
+        "plan {scene} --size 24x18 --emit {}",
+        path.display()
+    ));
     assert!(output.status.success());
     let plan: Plan = fs::read_to_string(&path).unwrap().parse().unwrap();
     let baked = octray(&format!("bake {scene} --plan {}", path.display()));
@@ -175,7 +187,10 @@ fn what_is_emitted_is_baked() {
     // A file that is no plan, and a plan beside what it says itself.
     let wrong = octray(&format!("bake {scene} --plan {scene}"));
     assert_eq!(wrong.status.code(), Some(1));
-    let both = octray(&format!("bake {scene} --plan {} --arith f32", path.display()));
+    let both = octray(&format!(
+        "bake {scene} --plan {} --arith f32",
+        path.display()
+    ));
     assert_eq!(both.status.code(), Some(2));
 }
 
@@ -185,14 +200,22 @@ fn what_does_not_fit_is_told_with_what_would() {
     for (bound, expected) in [
         ("--ram 900", "error: RAM: the nearest plan takes "),
         ("--flash 9000", "more than 9,000; it fits with --flash "),
-        ("--min-psnr 300 --arith fixed", "error: PSNR: nothing reaches 300 dB"),
+        (
+            "--min-psnr 300 --arith fixed",
+            "error: PSNR: nothing reaches 300 dB",
+        ),
     ] {
         let output = octray(&format!("plan {scene} {bound}"));
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{bound}: {told}");
         assert!(told.contains(expected), "{bound}: {told}");
     }
-    for line in ["plan", "plan a --target m1", "plan a --min-psnr -1", "plan a --emit a"] {
+    for line in [
+        "plan",
+        "plan a --target m1",
+        "plan a --min-psnr -1",
+        "plan a --emit a",
+    ] {
         assert_eq!(octray(line).status.code(), Some(2), "{line}");
     }
 }

@@ -77,6 +77,8 @@ pub struct Baked {
     pub rays: usize,
     /// Words of the tree, wherever it is built.
     pub words: usize,
+    /// How many of its nodes can wait at once, at the most.
+    pub nodes: usize,
 }
 
 /// Why a scene cannot be baked.
@@ -111,7 +113,11 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         Tree::None => (source::Tree::None, every),
         Tree::Packed(options) => {
             let tree = grow(&mut prepared.scene, options)?;
-            (source::Tree::Packed(tree.words, tree.tick), tree.links)
+            let nodes = tree.tree().waiting();
+            (
+                source::Tree::Packed(tree.words, tree.tick, nodes),
+                tree.links,
+            )
         }
         Tree::Device(growth) => {
             // The device finds the objects in the order of the file.
@@ -136,6 +142,7 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         needs,
         rays,
         words: tables.tree.room(),
+        nodes: tables.tree.nodes(),
     })
 }
 

@@ -181,7 +181,8 @@ impl<'a> Lines<'a> {
         let mut found = BTreeMap::new();
         let lines = (text.lines()).map(|line| line.split('#').next().unwrap_or_default().trim());
         for line in lines.filter(|line| !line.is_empty()) {
-            let known = (line.split_once(' ')).map(|(name, value)| found.insert(name, value.trim()));
+            let known =
+                (line.split_once(' ')).map(|(name, value)| found.insert(name, value.trim()));
             if known != Some(None) {
                 return Err(PlanError::Line(line.into()));
             }
@@ -246,12 +247,32 @@ mod tests {
         for (line, other, told) in [
             ("rays 2\n", "", "plan: no line tells rays"),
             ("rays 2", "rays 2\nrays 2", "plan: unexpected line `rays 2`"),
-            ("rays 2", "rays 2\nmoons 3", "plan: unexpected line `moons 3`"),
+            (
+                "rays 2",
+                "rays 2\nmoons 3",
+                "plan: unexpected line `moons 3`",
+            ),
             ("rays 2", "rays", "plan: unexpected line `rays`"),
-            ("packed", "oak", "plan: tree oak: expected packed, device or none"),
-            ("i18f14", "i18f13", "plan: arith i18f13: expected an arithmetic"),
-            ("max-depth 5", "max-depth 65", "plan: max-depth 65: expected 0 to 64"),
-            ("-ray 4", "-ray 2", "plan: pixels-per-ray 2: expected 1 or 4"),
+            (
+                "packed",
+                "oak",
+                "plan: tree oak: expected packed, device or none",
+            ),
+            (
+                "i18f14",
+                "i18f13",
+                "plan: arith i18f13: expected an arithmetic",
+            ),
+            (
+                "max-depth 5",
+                "max-depth 65",
+                "plan: max-depth 65: expected 0 to 64",
+            ),
+            (
+                "-ray 4",
+                "-ray 2",
+                "plan: pixels-per-ray 2: expected 1 or 4",
+            ),
         ] {
             assert_eq!(with(line, other).to_string(), told);
         }

@@ -75,6 +75,34 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 19] = [
+        Self::Load,
+        Self::LoadPart,
+        Self::Store,
+        Self::Multiple,
+        Self::MultipleReturn,
+        Self::BranchIf,
+        Self::Branch,
+        Self::Call,
+        Self::Indirect,
+        Self::Multiply,
+        Self::MultiplyAdd,
+        Self::MultiplyLong,
+        Self::MultiplyLongAdd,
+        Self::Divide,
+        Self::Float,
+        Self::FloatMultiplyAdd,
+        Self::FloatDivide,
+        Self::FloatRoot,
+        Self::Other,
+    ];
+
+    /// The kind of a [name](Self::name).
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
     /// The kind's name.
     pub fn name(self) -> &'static str {
         match self {

@@ -2,6 +2,7 @@
 
 use super::cycles::{self, Table};
 use crate::error::Error;
+use serde::{Serialize, Serializer};
 use std::fmt;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -90,6 +91,13 @@ pub const BOARDS: [Board; 8] = [
         cycles: None,
     },
 ];
+
+/// Its name.
+impl Serialize for Board {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
 
 impl Board {
     /// Whether its instructions are Arm's; RISC-V's if not.

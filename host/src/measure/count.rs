@@ -1,54 +1,7 @@
 //! What the emulator's plugin has counted, read from its report.
 
+use octray_count::Kind;
 use std::collections::BTreeMap;
-
-/// A kind of instructions; what each means is told where the plugin tells them apart
-/// (`firmware-sim/count/src/kind.rs`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "named where they are told apart")]
-pub enum Kind {
-    Load,
-    LoadPart,
-    Store,
-    Multiple,
-    MultipleReturn,
-    BranchIf,
-    Branch,
-    Call,
-    Indirect,
-    Multiply,
-    MultiplyAdd,
-    MultiplyLong,
-    MultiplyLongAdd,
-    Divide,
-    Float,
-    FloatMultiplyAdd,
-    FloatDivide,
-    FloatRoot,
-    Other,
-}
-
-const KINDS: [(&str, Kind); 19] = [
-    ("load", Kind::Load),
-    ("load-part", Kind::LoadPart),
-    ("store", Kind::Store),
-    ("multiple", Kind::Multiple),
-    ("multiple-return", Kind::MultipleReturn),
-    ("branch-if", Kind::BranchIf),
-    ("branch", Kind::Branch),
-    ("call", Kind::Call),
-    ("indirect", Kind::Indirect),
-    ("multiply", Kind::Multiply),
-    ("multiply-add", Kind::MultiplyAdd),
-    ("multiply-long", Kind::MultiplyLong),
-    ("multiply-long-add", Kind::MultiplyLongAdd),
-    ("divide", Kind::Divide),
-    ("float", Kind::Float),
-    ("float-multiply-add", Kind::FloatMultiplyAdd),
-    ("float-divide", Kind::FloatDivide),
-    ("float-root", Kind::FloatRoot),
-    ("other", Kind::Other),
-];
 
 /// Calls of a watched function.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,8 +49,7 @@ impl Count {
                 }
                 "kind" => {
                     let (name, n) = rest.split_once(' ')?;
-                    let (_, kind) = KINDS.iter().find(|(known, _)| *known == name)?;
-                    count.kinds.insert(*kind, n.parse().ok()?);
+                    count.kinds.insert(Kind::named(name)?, n.parse().ok()?);
                 }
                 "calls" => {
                     let (calls, rest) = rest.split_once(' ')?;

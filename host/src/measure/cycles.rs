@@ -2,7 +2,8 @@
 //! zero wait states. What the manual gives as a range, or what depends on neighbouring
 //! instructions, stays a range.
 
-use super::count::{Count, Kind};
+use super::count::Count;
+use octray_count::Kind;
 use serde::Serialize;
 
 /// At least and at most so many cycles.
@@ -13,6 +14,8 @@ type Range = (u64, u64);
 pub struct Table {
     /// Where the numbers have been published.
     pub source: &'static str,
+    /// The core whose cycles count where `costs` has none.
+    like: Option<&'static Table>,
     /// Cycles of each kind of instructions; of [`Kind::BranchIf`], when it is not taken.
     costs: &'static [(Kind, Range)],
     /// What [`Kind::BranchIf`] takes more when it is taken.
@@ -24,6 +27,7 @@ pub struct Table {
 /// A single-cycle multiplier, as in most parts.
 pub const CORTEX_M0: Table = Table {
     source: "Arm Cortex-M0 Technical Reference Manual (DDI 0432), table 3-1",
+    like: None,
     costs: &[
         (Kind::Load, (2, 2)),
         (Kind::LoadPart, (2, 2)),
@@ -44,6 +48,7 @@ pub const CORTEX_M0: Table = Table {
 /// A refill of the pipeline takes 1 to 3; neighbouring loads and stores of a word overlap.
 pub const CORTEX_M3: Table = Table {
     source: "Arm Cortex-M3 Technical Reference Manual (100165), table 3-1",
+    like: None,
     costs: &[
         (Kind::Load, (1, 2)),
         (Kind::LoadPart, (1, 2)),
@@ -68,26 +73,15 @@ pub const CORTEX_M3: Table = Table {
 /// As the Cortex-M3, with a faster multiplier and a unit for floats.
 pub const CORTEX_M4: Table = Table {
     source: "Arm Cortex-M4 Technical Reference Manual (100166), tables 3-1 and 7-1",
+    like: Some(&CORTEX_M3),
     costs: &[
-        (Kind::Load, (1, 2)),
-        (Kind::LoadPart, (1, 2)),
-        (Kind::Store, (1, 2)),
-        (Kind::Multiple, (1, 1)),
-        (Kind::MultipleReturn, (2, 4)),
-        (Kind::BranchIf, (1, 1)),
-        (Kind::Branch, (2, 4)),
-        (Kind::Call, (2, 4)),
-        (Kind::Indirect, (2, 4)),
-        (Kind::Multiply, (1, 1)),
         (Kind::MultiplyAdd, (1, 1)),
         (Kind::MultiplyLong, (1, 1)),
         (Kind::MultiplyLongAdd, (1, 1)),
-        (Kind::Divide, (2, 12)),
         (Kind::Float, (1, 1)),
         (Kind::FloatMultiplyAdd, (3, 3)),
         (Kind::FloatDivide, (14, 14)),
         (Kind::FloatRoot, (14, 14)),
-        (Kind::Other, (1, 1)),
     ],
     taken: (1, 3),
     moved: (1, 1),
@@ -97,6 +91,7 @@ pub const CORTEX_M4: Table = Table {
 /// mispredicted.
 pub const SIFIVE_E31: Table = Table {
     source: "SiFive FE310-G000 Manual, chapter 3: E31 core",
+    like: None,
     costs: &[
         (Kind::Load, (1, 2)),
         (Kind::LoadPart, (1, 3)),
@@ -132,12 +127,16 @@ impl Table {
             sum.most += most * n;
         };
         for (&kind, &n) in count.kinds.iter().filter(|(_, n)| **n > 0) {
-            let (_, cost) = self.costs.iter().find(|(k, _)| *k == kind)?;
-            add(*cost, n);
+            add(self.cost(kind)?, n);
         }
         add(self.taken, count.taken);
         add(self.moved, count.moved);
         Some(sum)
+    }
+
+    fn cost(&self, kind: Kind) -> Option<Range> {
+        let own = self.costs.iter().find(|(known, _)| *known == kind);
+        own.map(|(_, cost)| *cost).or_else(|| self.like?.cost(kind))
     }
 }
 

@@ -6,7 +6,7 @@ use super::job::{BuildOptions, MeasureJob};
 use super::memory::Memory;
 use super::reference::{self, Reference, View};
 use super::row::{Cost, Row};
-use super::workspace::{Program, Workspace};
+use super::workspace::Workspace;
 use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
@@ -138,33 +138,22 @@ impl Bench<'_> {
     ) -> Result<Result<PathBuf, String>, Error> {
         let size = format!("{}x{}", view.size.0, view.size.1);
         let depth = view.max_depth.to_string();
-        let mut variables = vec![
+        let variables = [
             ("OCTRAY_SCENE", scene),
             ("OCTRAY_ARITH", arith.name()),
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
             ("OCTRAY_TREE", options.tree.name()),
             ("OCTRAY_COUNTS", "0"),
-            ("CARGO_PROFILE_FIRMWARE_OPT_LEVEL", options.optimize.level()),
         ];
-        // The memory of Arm's boards is alike, and so is what is built for them.
-        if !board.is_arm() {
-            variables.push(("OCTRAY_BOARD", board.machine));
-        }
-        let program = Program {
-            package: "octray-firmware-sim",
-            arguments: &[
-                "--bin",
-                "octray-firmware",
-                "--profile",
-                "firmware",
-                "--target",
-                board.target,
-            ],
-            variables: &variables,
-            artifact: "octray-firmware",
-        };
-        self.workspace.build(&program, self.interrupt)
+        let firmware = ("octray-firmware", None);
+        (self.workspace).firmware(
+            firmware,
+            board,
+            options.optimize,
+            &variables,
+            self.interrupt,
+        )
     }
 }
 

@@ -83,11 +83,11 @@ impl TreeKind {
 }
 
 impl Goal {
-    /// The compiler's level of optimisation.
-    pub fn level(self) -> &'static str {
+    /// The profile that firmware is built with.
+    pub fn profile(self) -> &'static str {
         match self {
-            Self::Speed => "3",
-            Self::Size => "s",
+            Self::Speed => "firmware",
+            Self::Size => "firmware-small",
         }
     }
 }

@@ -4,20 +4,23 @@
 //! and the emulator's plugin counts the instructions from entry to return. Costs are means over the
 //! inputs, less what an empty function takes.
 
-mod report;
+mod table;
 
 use super::board::{self, Board};
 use super::emulate::{Emulator, Run};
 use super::job::MeasureJob;
-use super::workspace::{Program, Workspace};
+use super::report::{Report, With};
+use super::workspace::Workspace;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::Arith;
 use crate::output;
 use crate::progress::Progress;
-use report::Report;
-use serde::{Serialize, Serializer};
-use std::path::PathBuf;
+use serde::Serialize;
+use table::{failures, text};
+
+/// The program, and its feature.
+const PROGRAM: (&str, Option<&str>) = ("octray-kernels", Some("kernels"));
 
 /// The functions to watch.
 const WATCH: &str = "kernel_*";
@@ -60,7 +63,6 @@ const KERNELS: [(&str, Cost); 14] = [
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     kernel: &'static str,
-    #[serde(serialize_with = "board_name")]
     board: &'static Board,
     target: &'static str,
     core: &'static str,
@@ -79,9 +81,20 @@ struct Row {
     hits: Option<u64>,
 }
 
-fn board_name<S: Serializer>(board: &Board, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(board.name)
-}
+/// The columns of comma-separated values: those of every row, in order.
+const COLUMNS: [&str; 11] = [
+    "kernel",
+    "board",
+    "target",
+    "core",
+    "arith",
+    "format",
+    "outcome",
+    "calls",
+    "instructions",
+    "per_call",
+    "hits",
+];
 
 /// Measures the kernels, and tells.
 ///
@@ -103,7 +116,16 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     let mut rows = Vec::new();
     for &board in &job.boards {
         for &arith in &job.ariths {
-            let run = match program(&workspace, arith, board, job, interrupt)? {
+            let variables = [
+                ("OCTRAY_SCENE", "firmware-sim/kernels.scene"),
+                ("OCTRAY_ARITH", arith.name()),
+                ("OCTRAY_TREE", "packed"),
+                // As many nodes as there can be.
+                ("OCTRAY_LEAF_SIZE", "1"),
+            ];
+            let goal = job.build.optimize;
+            let built = workspace.firmware(PROGRAM, board, goal, &variables, interrupt)?;
+            let run = match built {
                 Ok(program) => emulator.run(board, &program, interrupt)?,
                 Err(why) => Err(format!("not built: {why}")),
             };
@@ -112,64 +134,15 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         }
     }
     drop(progress);
-    let versions = workspace.versions();
     let report = Report {
-        commit: versions.commit,
-        toolchain: versions.toolchain,
-        emulator: super::emulators(&job.boards),
+        with: With::of(&workspace, &job.boards),
         rows,
     };
-    if let Some(path) = &job.json {
-        output::write_file(path, interrupt, |out| report.write_json(out))?;
-    }
-    if let Some(path) = &job.csv {
-        output::write_file(path, interrupt, |out| report.write_csv(out))?;
-    }
-    output::write_stdout(interrupt, |out| out.write_all(report.text().as_bytes()))?;
-    match report.failures().len() {
-        0 => Ok(()),
-        n => Err(Error::Failed(format!("{n} of the combinations failed"))),
-    }
-}
-
-/// Builds the program.
-fn program(
-    workspace: &Workspace,
-    arith: Arith,
-    board: &Board,
-    job: &MeasureJob,
-    interrupt: &Interrupt,
-) -> Result<Result<PathBuf, String>, Error> {
-    let mut variables = vec![
-        ("OCTRAY_SCENE", "firmware-sim/kernels.scene"),
-        ("OCTRAY_ARITH", arith.name()),
-        ("OCTRAY_TREE", "packed"),
-        // As many nodes as there can be.
-        ("OCTRAY_LEAF_SIZE", "1"),
-        (
-            "CARGO_PROFILE_FIRMWARE_OPT_LEVEL",
-            job.build.optimize.level(),
-        ),
-    ];
-    if !board.is_arm() {
-        variables.push(("OCTRAY_BOARD", board.machine));
-    }
-    let program = Program {
-        package: "octray-firmware-sim",
-        arguments: &[
-            "--bin",
-            "octray-kernels",
-            "--features",
-            "kernels",
-            "--profile",
-            "firmware",
-            "--target",
-            board.target,
-        ],
-        variables: &variables,
-        artifact: "octray-kernels",
-    };
-    workspace.build(&program, interrupt)
+    report.write(&COLUMNS, job, interrupt)?;
+    output::write_stdout(interrupt, |out| {
+        out.write_all(text(&report.rows).as_bytes())
+    })?;
+    super::all_done(failures(&report.rows).len())
 }
 
 fn row(

@@ -1,8 +1,8 @@
 //! The thesis's table III, today: what a picture costs on one core without and with its
 //! floating-point unit; and what emulated floats cost beside fixed point.
 
-use super::report::{left, table};
 use super::row::Row;
+use super::table::{left, table};
 use crate::facts::thousands;
 use crate::job::Arith;
 

@@ -1,215 +1,97 @@
-//! The results as a table to read, as JSON, and as comma-separated values.
+//! The results as JSON, and as comma-separated values.
 
-use super::ratio;
-use super::row::{Cost, Row};
-use crate::facts::thousands;
-use comfy_table::{CellAlignment, Table, presets};
+use super::board::Board;
+use super::emulate;
+use super::job::MeasureJob;
+use super::workspace::Workspace;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::output;
 use serde::Serialize;
 use std::io;
 
-/// Everything that was measured, and with what.
-#[derive(Clone, Debug, Serialize)]
-pub struct Report {
-    /// The commit of the sources.
+/// What was measured with.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct With {
+    /// The sources' commit, marked if something has been changed since.
     pub commit: String,
     /// The compiler.
     pub toolchain: String,
-    /// The emulator.
+    /// The emulators.
     pub emulator: String,
+}
+
+/// Everything that was measured, and with what.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report<Row> {
+    /// What was measured with.
+    #[serde(flatten)]
+    pub with: With,
     /// A line for each combination.
     pub rows: Vec<Row>,
 }
 
-/// The columns of comma-separated values: those of every row, in order.
-const COLUMNS: [&str; 39] = [
-    "scene",
-    "objects",
-    "width",
-    "height",
-    "max_depth",
-    "board",
-    "target",
-    "core",
-    "arith",
-    "format",
-    "tree",
-    "optimize",
-    "outcome",
-    "instructions",
-    "per_pixel",
-    "rays",
-    "per_ray",
-    "closest_rays",
-    "per_closest_ray",
-    "shadow_rays",
-    "per_shadow_ray",
-    "load_store",
-    "branch",
-    "multiply",
-    "divide",
-    "float",
-    "other",
-    "float_library",
-    "estimated_cycles_least",
-    "estimated_cycles_most",
-    "estimate_source",
-    "computed_pixels_per_s_mhz",
-    "flash",
-    "ram",
-    "stack",
-    "psnr",
-    "hash",
-    // The same in every row.
-    "commit",
-    "toolchain",
-];
+impl With {
+    /// The versions of what firmware is built with and of what runs these boards.
+    pub fn of(workspace: &Workspace, boards: &[&Board]) -> Self {
+        let mut emulators: Vec<_> = boards.iter().map(|board| emulate::version(board)).collect();
+        emulators.sort();
+        emulators.dedup();
+        let versions = workspace.versions();
+        Self {
+            commit: versions.commit,
+            toolchain: versions.toolchain,
+            emulator: emulators.join(", "),
+        }
+    }
+}
 
-impl Report {
-    /// Writes one JSON object.
+impl<Row: Serialize> Report<Row> {
+    /// Writes the files that were asked for.
     ///
     /// # Errors
-    /// If it cannot be written.
-    pub fn write_json(&self, out: &mut dyn io::Write) -> io::Result<()> {
+    /// If one cannot be written.
+    pub fn write(
+        &self,
+        columns: &[&str],
+        job: &MeasureJob,
+        interrupt: &Interrupt,
+    ) -> Result<(), Error> {
+        if let Some(path) = &job.json {
+            output::write_file(path, interrupt, |out| self.write_json(out))?;
+        }
+        if let Some(path) = &job.csv {
+            output::write_file(path, interrupt, |out| self.write_csv(columns, out))?;
+        }
+        Ok(())
+    }
+
+    /// Writes one JSON object.
+    fn write_json(&self, out: &mut dyn io::Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut *out, self)?;
         writeln!(out)
     }
 
-    /// Writes comma-separated values, with a line of names. What is not known is empty.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn write_csv(&self, out: &mut dyn io::Write) -> io::Result<()> {
+    /// Writes comma-separated values, with a line of names: these columns, and in every row with
+    /// what it was measured. What is not known is empty.
+    fn write_csv(&self, columns: &[&str], out: &mut dyn io::Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(COLUMNS.iter().chain(&["emulator"]))?;
+        csv.write_record(columns.iter().chain(&["commit", "toolchain", "emulator"]))?;
+        let with = [
+            &*self.with.commit,
+            &self.with.toolchain,
+            &self.with.emulator,
+        ];
         for row in &self.rows {
-            let mut value = serde_json::to_value(row)?;
-            value["commit"] = (&*self.commit).into();
-            value["toolchain"] = (&*self.toolchain).into();
-            value["emulator"] = (&*self.emulator).into();
-            csv.write_record(
-                COLUMNS
-                    .iter()
-                    .chain(&["emulator"])
-                    .map(|name| match &value[name] {
-                        serde_json::Value::Null => String::new(),
-                        serde_json::Value::String(text) => text.clone(),
-                        other => other.to_string(),
-                    }),
-            )?;
+            let row = serde_json::to_value(row)?;
+            let cells = columns.iter().map(|name| match &row[name] {
+                serde_json::Value::Null => String::new(),
+                serde_json::Value::String(text) => text.clone(),
+                other => other.to_string(),
+            });
+            csv.write_record(cells.chain(with.map(String::from)))?;
         }
         csv.flush()
-    }
-
-    /// The table, and the costliest functions of each row.
-    pub fn text(&self, functions: usize) -> String {
-        let mut text = frames(&self.rows) + &ratio::text(&self.rows);
-        for row in self.rows.iter().filter(|_| functions > 0) {
-            let Some(all) = row.instructions() else {
-                continue;
-            };
-            text += &format!("\n{} {} {}\n", row.scene, row.board.name, row.arith.name());
-            for (name, n) in row.functions.iter().take(functions) {
-                let share = percent(*n, all);
-                text += &format!("{share:>7} %  {:>15}  {name}\n", thousands(*n));
-            }
-        }
-        text
-    }
-}
-
-/// The table: a line for each row.
-fn frames(rows: &[Row]) -> String {
-    let mut table = table(&[
-        "scene",
-        "board",
-        "arithmetic",
-        "instructions",
-        "per pixel",
-        "per ray",
-        "closest hit",
-        "load/store %",
-        "branch %",
-        "mul %",
-        "div %",
-        "FPU %",
-        "float library %",
-        "Mcycles, estimated",
-        "flash",
-        "RAM",
-        "stack",
-        "PSNR",
-    ]);
-    left(&mut table, 3);
-    for row in rows {
-        let arith = match &row.cost {
-            Some(cost) if cost.format != row.arith.name() => {
-                format!("{}: {}", row.arith.name(), cost.format)
-            }
-            _ => row.arith.name().into(),
-        };
-        let mut cells = vec![row.scene.clone(), row.board.name.into(), arith];
-        match &row.cost {
-            Some(cost) => cells.extend(numbers(cost)),
-            None => cells.push(row.outcome.clone()),
-        }
-        table.add_row(cells);
-    }
-    format!("{table}\n")
-}
-
-fn numbers(cost: &Cost) -> impl Iterator<Item = String> {
-    let count = |n: f64| thousands(n.round() as u64);
-    let share = |n| percent(n, cost.instructions);
-    let cycles = match (cost.estimated_cycles_least, cost.estimated_cycles_most) {
-        (Some(least), Some(most)) if least == most => millions(least),
-        (Some(least), Some(most)) => format!("{} to {}", millions(least), millions(most)),
-        _ => "–".into(),
-    };
-    [
-        thousands(cost.instructions),
-        count(cost.per_pixel),
-        count(cost.per_ray),
-        cost.per_closest_ray.map_or("–".into(), count),
-        share(cost.load_store),
-        share(cost.branch),
-        share(cost.multiply),
-        share(cost.divide),
-        share(cost.float),
-        share(cost.float_library),
-        cycles,
-        thousands(cost.flash),
-        thousands(cost.ram),
-        thousands(cost.stack),
-        cost.psnr
-            .map_or("equal".into(), |psnr| format!("{psnr:.1}")),
-    ]
-    .into_iter()
-}
-
-fn percent(n: u64, of: u64) -> String {
-    format!("{:.1}", 100.0 * n as f64 / of.max(1) as f64)
-}
-
-fn millions(n: u64) -> String {
-    format!("{:.1}", n as f64 / 1e6)
-}
-
-/// A table with these columns, all of numbers.
-pub(super) fn table(columns: &[&str]) -> Table {
-    let mut table = Table::new();
-    table
-        .load_style(presets::ASCII_MARKDOWN)
-        .set_header(columns);
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
-}
-
-/// The first columns hold words.
-pub(super) fn left(table: &mut Table, columns: usize) {
-    for column in table.column_iter_mut().take(columns) {
-        column.set_cell_alignment(CellAlignment::Left);
     }
 }
 
@@ -217,6 +99,7 @@ pub(super) fn left(table: &mut Table, columns: usize) {
 pub(super) mod tests {
     use super::super::board::BOARDS;
     use super::super::job::{Goal, TreeKind};
+    use super::super::row::{COLUMNS, Cost, Row};
     use super::*;
     use crate::job::Arith;
 
@@ -266,39 +149,25 @@ pub(super) mod tests {
         }
     }
 
-    fn report() -> Report {
+    /// One that was measured, and one that failed.
+    pub(in super::super) fn rows() -> Vec<Row> {
         let failed = Row {
             outcome: "stack overflow".into(),
             cost: None,
             ..example()
         };
-        Report {
-            commit: "0123456789ab".into(),
-            toolchain: "rustc 1".into(),
-            emulator: "QEMU 7".into(),
-            rows: vec![example(), failed],
-        }
-    }
-
-    #[test]
-    fn a_failure_stands_where_numbers_would() {
-        let text = report().text(0);
-        let last = text.lines().last().unwrap();
-        assert!(last.contains("| stack overflow "), "{text}");
-        assert!(!last.contains("55,"), "{text}");
-    }
-
-    #[test]
-    fn the_costliest_functions_are_told_if_asked_for() {
-        let text = report().text(1);
-        assert!(text.contains("figure-22 m3 auto\n   44.9 %       25,000,000  f\n"));
-        assert!(!text.contains("  g"), "{text}");
+        vec![example(), failed]
     }
 
     #[test]
     fn values_have_a_column_each_and_failures_have_none() {
         let mut bytes = Vec::new();
-        report().write_csv(&mut bytes).unwrap();
+        let with = With {
+            emulator: "QEMU 7".into(),
+            ..With::default()
+        };
+        let report = Report { with, rows: rows() };
+        report.write_csv(&COLUMNS, &mut bytes).unwrap();
         let mut csv = csv::Reader::from_reader(&*bytes);
         let names = csv.headers().unwrap().clone();
         let rows: Vec<_> = csv.records().map(Result::unwrap).collect();
@@ -315,7 +184,6 @@ pub(super) mod tests {
     fn no_column_is_forgotten() {
         let row = serde_json::to_value(example()).unwrap();
         let mut keys: Vec<_> = row.as_object().unwrap().keys().map(|k| &**k).collect();
-        keys.extend(["commit", "toolchain"]);
         keys.sort_unstable();
         let mut columns = COLUMNS.to_vec();
         columns.sort_unstable();

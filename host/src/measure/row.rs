@@ -7,7 +7,7 @@ use super::job::{Goal, TreeKind};
 use super::memory::Memory;
 use super::reference::Reference;
 use crate::job::Arith;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 /// A scene on a board in an arithmetic.
 #[derive(Clone, Debug, Serialize)]
@@ -23,7 +23,6 @@ pub struct Row {
     /// The most bounces.
     pub max_depth: u32,
     /// The board.
-    #[serde(serialize_with = "board_name")]
     pub board: &'static Board,
     /// The arithmetic that was asked for.
     pub arith: Arith,
@@ -41,9 +40,46 @@ pub struct Row {
     pub functions: Vec<(String, u64)>,
 }
 
-fn board_name<S: Serializer>(board: &Board, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(board.name)
-}
+/// The columns of comma-separated values: those of every row, in order.
+pub const COLUMNS: [&str; 37] = [
+    "scene",
+    "objects",
+    "width",
+    "height",
+    "max_depth",
+    "board",
+    "target",
+    "core",
+    "arith",
+    "format",
+    "tree",
+    "optimize",
+    "outcome",
+    "instructions",
+    "per_pixel",
+    "rays",
+    "per_ray",
+    "closest_rays",
+    "per_closest_ray",
+    "shadow_rays",
+    "per_shadow_ray",
+    "load_store",
+    "branch",
+    "multiply",
+    "divide",
+    "float",
+    "other",
+    "float_library",
+    "estimated_cycles_least",
+    "estimated_cycles_most",
+    "estimate_source",
+    "computed_pixels_per_s_mhz",
+    "flash",
+    "ram",
+    "stack",
+    "psnr",
+    "hash",
+];
 
 /// What a frame costs. Instructions and rays are exact; cycles are an estimate.
 #[derive(Clone, Debug, PartialEq, Serialize)]

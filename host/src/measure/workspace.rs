@@ -1,6 +1,8 @@
 //! The sources of the firmware, and building them with cargo.
 
+use super::board::Board;
 use super::child::{self, Ended};
+use super::job::Goal;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use std::env;
@@ -123,6 +125,35 @@ impl Workspace {
             .ok_or_else(|| {
                 Error::Failed(format!("cargo did not tell where {} is", program.artifact))
             })
+    }
+
+    /// Builds one of the firmware's programs for a board: a binary, and the feature that it needs if any.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn firmware(
+        &self,
+        (binary, feature): (&str, Option<&str>),
+        board: &Board,
+        goal: Goal,
+        variables: &[(&str, &str)],
+        interrupt: &Interrupt,
+    ) -> Result<Result<PathBuf, String>, Error> {
+        let mut arguments = vec!["--bin", binary, "--profile", goal.profile()];
+        arguments.extend(["--target", board.target]);
+        arguments.extend(feature.iter().flat_map(|feature| ["--features", feature]));
+        let mut variables = variables.to_vec();
+        // The memory of Arm's boards is alike, and so is what is built for them.
+        if !board.is_arm() {
+            variables.push(("OCTRAY_BOARD", board.machine));
+        }
+        let program = Program {
+            package: "octray-firmware-sim",
+            arguments: &arguments,
+            variables: &variables,
+            artifact: binary,
+        };
+        self.build(&program, interrupt)
     }
 
     /// What is built with.

@@ -107,10 +107,12 @@ impl Scope<'_> {
         let coarse = self.render(&self.plan("f64", 4, depth))?;
         let coarse_psnr = psnr(&exact, &coarse.picture)?;
         let all = bounds(self.scene, depth).into_iter();
-        let largest = all.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or(Bound {
-            what: "a direction".into(),
-            value: 1.0,
-        });
+        let largest = all
+            .max_by(|a, b| a.value.total_cmp(&b.value))
+            .unwrap_or(Bound {
+                what: "a direction".into(),
+                value: 1.0,
+            });
         let mut accuracy = Accuracy {
             exact,
             depth,
@@ -217,7 +219,8 @@ impl Accuracy {
     pub fn narrowest(&self) -> impl Iterator<Item = &Tried> {
         let of = |fixed: bool| {
             let family = self.tried.iter();
-            (family.filter(move |tried| tried.fraction_bits.is_some() == fixed && tried.does)).last()
+            (family.filter(move |tried| tried.fraction_bits.is_some() == fixed && tried.does))
+                .last()
         };
         [of(true), of(false)].into_iter().flatten()
     }
@@ -246,7 +249,15 @@ mod tests {
 
     #[test]
     fn bits_before_the_point_hold_what_is_below_their_power() {
-        for (largest, bits) in [(0.0, 0), (0.5, 0), (1.0, 1), (1.5, 1), (5.2, 3), (8.0, 4), (1e12, 31)] {
+        for (largest, bits) in [
+            (0.0, 0),
+            (0.5, 0),
+            (1.0, 1),
+            (1.5, 1),
+            (5.2, 3),
+            (8.0, 4),
+            (1e12, 31),
+        ] {
             assert_eq!(integer_bits(largest), bits, "{largest}");
         }
     }

@@ -69,7 +69,9 @@ impl Chooser<'_> {
         let mut all = Vec::new();
         for tried in accuracy.narrowest() {
             let pixels_per_ray = accuracy.pixels_per_ray;
-            let plan = self.scope.plan(tried.format, pixels_per_ray, accuracy.depth);
+            let plan = self
+                .scope
+                .plan(tried.format, pixels_per_ray, accuracy.depth);
             self.trees(&plan, &mut all)?;
         }
         Ok(all)
@@ -84,9 +86,15 @@ impl Chooser<'_> {
         let objects = self.scope.scene.objects.len();
         if objects <= FEW {
             let tree = Tree::None;
-            all.push(self.candidate(Plan { tree, ..plan.clone() })?);
+            all.push(self.candidate(Plan {
+                tree,
+                ..plan.clone()
+            })?);
         }
-        for leaf_size in LEAVES.into_iter().filter(|size| *size as usize <= objects.max(1)) {
+        for leaf_size in LEAVES
+            .into_iter()
+            .filter(|size| *size as usize <= objects.max(1))
+        {
             all.push(self.candidate(packed(24, leaf_size))?);
         }
         // Shallower trees of the leaf size that is best.

@@ -108,7 +108,12 @@ mod tests {
     #[test]
     fn weights_that_fit_exactly_are_found() {
         let truth = [3.0, 0.0, 70.0];
-        let rows = [[1.0, 2.0, 3.0], [4.0, 1.0, 0.0], [0.0, 5.0, 1.0], [9.0, 2.0, 2.0]];
+        let rows = [
+            [1.0, 2.0, 3.0],
+            [4.0, 1.0, 0.0],
+            [0.0, 5.0, 1.0],
+            [9.0, 2.0, 2.0],
+        ];
         let cost = |events: [f64; 3]| events.iter().zip(truth).map(|(e, w)| e * w).sum();
         let fitted = least_squares(&rows.map(|events| (events, cost(events))));
         for (found, expected) in fitted.iter().zip(truth) {

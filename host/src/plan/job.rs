@@ -74,10 +74,16 @@ mod tests {
                 true => "cortex-m",
                 false => board.machine,
             };
-            let path = root.join("firmware-sim/link").join(layout).with_extension("x");
+            let path = root
+                .join("firmware-sim/link")
+                .join(layout)
+                .with_extension("x");
             let text = fs::read_to_string(path).unwrap();
             let length = |name: &str| -> u64 {
-                let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
+                let line = text
+                    .lines()
+                    .find(|line| line.trim().starts_with(name))
+                    .unwrap();
                 let (_, size) = line.split_once("LENGTH = ").unwrap();
                 let (number, unit) = size.split_at(size.len() - 1);
                 number.parse::<u64>().unwrap() << if unit == "M" { 20 } else { 10 }

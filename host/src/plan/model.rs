@@ -61,12 +61,10 @@ pub const ROWS: usize = 4;
 impl Parts {
     /// Of a baked plan with so many lights.
     pub fn of(plan: &Plan, baked: &Baked, lights: usize) -> Self {
-        // A `PackedStack`; links and boxes of a tree that is built there are counted by object.
-        let nodes = size_of::<octray_core::octree::PackedStack>();
         Self {
             strip: plan.size.0 as usize * ROWS * 3,
             rays: baked.rays * size_of::<Pending<f32>>(),
-            nodes: if plan.tree == Tree::None { 0 } else { nodes },
+            nodes: baked.nodes * 4,
             blockers: lights * 8,
             tree: match plan.tree {
                 Tree::Device(_) => baked.words * 4,
@@ -178,7 +176,11 @@ impl Weights {
 
     fn names() -> Vec<String> {
         let events = NAMES.into_iter().map(String::from);
-        let parts = || ["all", "tree"].into_iter().chain(needs::NAMES.map(|(name, _)| name));
+        let parts = || {
+            ["all", "tree"]
+                .into_iter()
+                .chain(needs::NAMES.map(|(name, _)| name))
+        };
         let code = parts().map(|part| format!("code of {part}"));
         let frames = parts().map(|part| format!("frames of {part}"));
         let errors = ["instructions", "flash", "RAM"].map(|what| format!("error of {what}"));

@@ -91,7 +91,8 @@ impl Sample {
 pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
     let mut lines = Vec::new();
     for line in csv::Reader::from_reader(record).into_deserialize() {
-        lines.push(line.map_err(|why| Error::Failed(format!("the record of measurements: {why}")))?);
+        lines
+            .push(line.map_err(|why| Error::Failed(format!("the record of measurements: {why}")))?);
     }
     Ok(lines)
 }
@@ -156,8 +157,8 @@ impl Line {
         let plan = self.plan(&scene)?;
         let probe = Probe::render(&scene, &plan, interrupt)?;
         let failed = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
-        let baked = bake(&scene, plan.arith, &plan.options(""))
-            .map_err(|why| failed(&why.to_string()))?;
+        let baked =
+            bake(&scene, plan.arith, &plan.options("")).map_err(|why| failed(&why.to_string()))?;
         let board = (BOARDS.iter())
             .find(|board| board.name == self.board)
             .ok_or_else(|| failed(&self.board))?;

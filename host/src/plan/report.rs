@@ -133,7 +133,8 @@ impl Report {
         let weights = chooser.weights(chosen.plan.arith)?;
         let tried = |format| accuracy.tried.iter().find(|tried| tried.format == format);
         let instructions = |events: &Events| weights.instructions(events).iter().sum::<f64>();
-        let less = |events: &Events| Some(instructions(events) / instructions(&accuracy.full) - 1.0);
+        let less =
+            |events: &Events| Some(instructions(events) / instructions(&accuracy.full) - 1.0);
         let decisions = vec![
             bounces(accuracy, less),
             pixels_per_ray(accuracy, less),
@@ -189,32 +190,47 @@ impl Report {
             }
         }
         if let Some(cost) = &self.cost {
-            let [instructions, flash, ram] = cost.errors.map(|error| format!("{:.0} %", 100.0 * error));
+            let [instructions, flash, ram] =
+                cost.errors.map(|error| format!("{:.0} %", 100.0 * error));
             let detail = &cost.detail;
-            text += &line("flash", &format!(
-                "{} bytes ± {flash}: {} of code, {} of tables",
-                thousands(cost.flash),
-                thousands(detail.code.round() as u64),
-                thousands(detail.tables as u64),
-            ));
-            text += &line("RAM", &format!(
-                "{} bytes ± {ram}: {} of functions' frames, {} lent",
-                thousands(cost.ram),
-                thousands(detail.frames.round() as u64),
-                thousands(detail.lent.total() as u64),
-            ));
+            text += &line(
+                "flash",
+                &format!(
+                    "{} bytes ± {flash}: {} of code, {} of tables",
+                    thousands(cost.flash),
+                    thousands(detail.code.round() as u64),
+                    thousands(detail.tables as u64),
+                ),
+            );
+            text += &line(
+                "RAM",
+                &format!(
+                    "{} bytes ± {ram}: {} of functions' frames, {} lent",
+                    thousands(cost.ram),
+                    thousands(detail.frames.round() as u64),
+                    thousands(detail.lent.total() as u64),
+                ),
+            );
             let count = thousands(cost.instructions);
-            text += &line("instructions", &format!("{count} per frame ± {instructions}"));
+            text += &line(
+                "instructions",
+                &format!("{count} per frame ± {instructions}"),
+            );
             text += &line("accuracy", &decibels(cost.psnr));
         }
         if let Some(trial) = &self.trial {
             let measured = [trial.instructions, trial.flash, trial.ram].map(thousands);
             let [instructions, flash, ram] = [0, 1, 2].map(|i| {
-                format!("{} (predicted: {:+.1} %)", measured[i], 100.0 * trial.errors[i])
+                format!(
+                    "{} (predicted: {:+.1} %)",
+                    measured[i],
+                    100.0 * trial.errors[i]
+                )
             });
-            text += &line("measured", &format!(
-                "{instructions} instructions, {flash} bytes of flash, {ram} of RAM"
-            ));
+            text += &line(
+                "measured",
+                &format!("{instructions} instructions, {flash} bytes of flash, {ram} of RAM"),
+            );
         }
         text
     }
@@ -234,14 +250,18 @@ impl Cheaper {
         let bytes = |more: Option<i64>, what: &str| {
             let more = more.filter(|more| *more != 0)?;
             let sign = if more < 0 { '−' } else { '+' };
-            Some(format!("{sign}{} bytes of {what}", thousands(more.unsigned_abs())))
+            Some(format!(
+                "{sign}{} bytes of {what}",
+                thousands(more.unsigned_abs())
+            ))
         };
         let percent = |more: f64| {
             let sign = if more < 0.0 { '−' } else { '+' };
             format!("{sign}{:.1} % instructions", 100.0 * more.abs())
         };
         let parts = [
-            self.psnr.map(|psnr| decibels(Some(psnr).filter(|psnr| psnr.is_finite()))),
+            self.psnr
+                .map(|psnr| decibels(Some(psnr).filter(|psnr| psnr.is_finite()))),
             self.instructions.map(percent),
             bytes(self.flash, "flash"),
             bytes(self.ram, "RAM"),
@@ -262,10 +282,7 @@ impl Cheaper {
     }
 }
 
-fn bounces(
-    accuracy: &Accuracy,
-    less: impl Fn(&Events) -> Option<f64>,
-) -> Decision {
+fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {
     Decision {
         about: "bounces",
         chosen: accuracy.depth.to_string(),
@@ -279,17 +296,17 @@ fn bounces(
     }
 }
 
-fn pixels_per_ray(
-    accuracy: &Accuracy,
-    less: impl Fn(&Events) -> Option<f64>,
-) -> Decision {
+fn pixels_per_ray(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {
     let (events, psnr) = &accuracy.coarse;
     let four = accuracy.pixels_per_ray == 4;
     Decision {
         about: "pixels per ray",
         chosen: accuracy.pixels_per_ray.to_string(),
         why: match four {
-            true => format!("even so {}", decibels(Some(*psnr).filter(|psnr| psnr.is_finite()))),
+            true => format!(
+                "even so {}",
+                decibels(Some(*psnr).filter(|psnr| psnr.is_finite()))
+            ),
             false => "the picture has too much detail for 4".into(),
         },
         cheaper: (!four).then(|| Cheaper {
@@ -324,7 +341,8 @@ fn numbers(accuracy: &Accuracy, candidates: &[Candidate], chosen: &Candidate) ->
         }
         None => format!("{psnr}; scaled by 2^{scale}{other}"),
     };
-    let narrower = (accuracy.tried.iter()).find(|tried| tried.fraction_bits.is_some() && !tried.does);
+    let narrower =
+        (accuracy.tried.iter()).find(|tried| tried.fraction_bits.is_some() && !tried.does);
     Decision {
         about: "numbers",
         chosen: arith.into(),
@@ -349,10 +367,17 @@ fn tree(candidates: &[Candidate], chosen: &Candidate) -> Decision {
         let [steps, tests] = candidate.events.per_ray();
         match candidate.plan.tree {
             Tree::None => format!("{tests:.2} tests per ray"),
-            _ => format!("{steps:.2} steps and {tests:.2} tests per ray, {} nodes", candidate.nodes),
+            _ => format!(
+                "{steps:.2} steps and {tests:.2} tests per ray, {} nodes",
+                candidate.nodes
+            ),
         }
     };
-    let alike = || candidates.iter().filter(|c| c.plan.arith == chosen.plan.arith);
+    let alike = || {
+        candidates
+            .iter()
+            .filter(|c| c.plan.arith == chosen.plan.arith)
+    };
     let is_none = |c: &&Candidate| c.plan.tree == Tree::None;
     let versus = match chosen.plan.tree {
         Tree::None => cheapest(alike().filter(|c| !is_none(c))),
@@ -360,7 +385,11 @@ fn tree(candidates: &[Candidate], chosen: &Candidate) -> Decision {
     };
     let versus = versus.map_or(String::new(), |other| {
         let more = 100.0 * (other.cost.instructions / chosen.cost.instructions - 1.0);
-        format!("; {} has {}, {more:+.1} % instructions", name(other), work(other))
+        format!(
+            "; {} has {}, {more:+.1} % instructions",
+            name(other),
+            work(other)
+        )
     });
     let smaller = alike().filter(|other| other.cost.flash() < chosen.cost.flash());
     Decision {
@@ -398,10 +427,17 @@ fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
     let names = |wanted: bool| {
         let names = needs::NAMES.iter().filter(|(_, what)| has(*what) == wanted);
         let names: Vec<_> = names.map(|(name, _)| name.to_lowercase()).collect();
-        if names.is_empty() { "nothing".into() } else { names.join(", ") }
+        if names.is_empty() {
+            "nothing".into()
+        } else {
+            names.join(", ")
+        }
     };
     // The first two are the code that there always is, and the tree's.
-    let absent = needs::NAMES.iter().zip(&weights[2..]).filter(|((_, what), _)| !has(*what));
+    let absent = needs::NAMES
+        .iter()
+        .zip(&weights[2..])
+        .filter(|((_, what), _)| !has(*what));
     let saved: f64 = absent.map(|(_, bytes)| bytes).sum();
     Decision {
         about: "code",
@@ -422,7 +458,9 @@ fn failures(chosen: &Candidate, bounds: &Bounds) -> Vec<String> {
     let excess = |what, needs: u64, has: u64, fit| {
         let (more, needed) = (thousands(needs - has), thousands(needs));
         let has = thousands(has);
-        format!("{what}: the nearest plan takes {needed} bytes, {more} more than {has}; it fits with {fit}")
+        format!(
+            "{what}: the nearest plan takes {needed} bytes, {more} more than {has}; it fits with {fit}"
+        )
     };
     if flash > bounds.flash {
         let fit = format!("--flash {flash}");

@@ -6,8 +6,9 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
+use crate::measure::job::Goal;
 use crate::measure::memory::Memory;
-use crate::measure::workspace::{Program, Workspace};
+use crate::measure::workspace::Workspace;
 use crate::measure::{self, frames};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::Plan;
@@ -57,17 +58,10 @@ pub fn run(
     let file = folder.path().join("plan");
     fs::write(&file, plan.to_string()).map_err(|cause| Error::write(&file, cause))?;
     let (scene, file) = (path.to_string_lossy(), file.to_string_lossy());
-    let program = Program {
-        package: "octray-firmware-sim",
-        arguments: &["--bin", "octray-firmware", "--profile", "firmware", "--target", board.target],
-        variables: &[
-            ("OCTRAY_SCENE", &scene),
-            ("OCTRAY_PLAN", &file),
-            ("OCTRAY_BOARD", if board.is_arm() { "virt" } else { board.machine }),
-        ],
-        artifact: "octray-firmware",
-    };
-    let program = workspace.build(&program, interrupt)?.map_err(failed)?;
+    let firmware = ("octray-firmware", None);
+    let variables = [("OCTRAY_SCENE", &*scene), ("OCTRAY_PLAN", &*file)];
+    let program = workspace.firmware(firmware, board, Goal::Speed, &variables, interrupt)?;
+    let program = program.map_err(failed)?;
     let emulator = Emulator {
         plugin: &plugin,
         patience: PATIENCE,
@@ -77,9 +71,13 @@ pub fn run(
     let told = |name| run.told.get(name).cloned().unwrap_or_default();
     let (hash, expected) = (told("hash"), format!("{expected:016x}"));
     if hash != expected {
-        return Err(failed(format!("its picture's hash is {hash}, the host's {expected}")));
+        return Err(failed(format!(
+            "its picture's hash is {hash}, the host's {expected}"
+        )));
     }
-    let stack: u64 = told("stack").parse().map_err(|_| failed("its stack is not known".into()))?;
+    let stack: u64 = told("stack")
+        .parse()
+        .map_err(|_| failed("its stack is not known".into()))?;
     let bytes = fs::read(&program).map_err(|cause| Error::read(&program, cause))?;
     let memory = Memory::of(&bytes).map_err(|why| failed(why.to_string()))?;
     let measured = [run.count.instructions, memory.flash, memory.ram + stack];
