@@ -182,7 +182,7 @@ fn errors(samples: &[Sample], model: &Model) -> Table {
         "instructions: mean",
         "largest",
         "scene",
-        "left out: instructions",
+        "left out, typically: instructions",
         "flash",
         "RAM",
     ]);

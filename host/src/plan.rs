@@ -12,6 +12,7 @@ pub mod events;
 pub mod fit;
 pub mod job;
 pub mod model;
+mod reasons;
 pub mod record;
 pub mod report;
 pub mod trial;

@@ -220,7 +220,7 @@ impl Accuracy {
         let of = |fixed: bool| {
             let family = self.tried.iter();
             (family.filter(move |tried| tried.fraction_bits.is_some() == fixed && tried.does))
-                .last()
+                .next_back()
         };
         [of(true), of(false)].into_iter().flatten()
     }

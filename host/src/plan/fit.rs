@@ -80,11 +80,11 @@ fn weights(target: &str, family: Family, samples: &[&Sample]) -> Weights {
     }
 }
 
-/// The largest relative errors of instructions, flash and RAM when each scene in turn is left out of what is
-/// learnt from.
+/// The relative errors of instructions, flash and RAM when each scene in turn is left out of what is learnt
+/// from: the roots of their mean squares.
 fn errors(samples: &[&Sample]) -> [f64; 3] {
     let scenes: BTreeSet<&str> = samples.iter().map(|s| &*s.line.scene).collect();
-    let mut errors = [0.0; 3];
+    let mut squares = [0.0; 3];
     for scene in scenes {
         let (out, known): (Vec<&Sample>, Vec<&Sample>) =
             samples.iter().partition(|s| s.line.scene == scene);
@@ -93,12 +93,12 @@ fn errors(samples: &[&Sample]) -> [f64; 3] {
         };
         let weights = weights(first.board.target, first.family, &known);
         for sample in out {
-            for (worst, error) in errors.iter_mut().zip(sample.errors(&weights)) {
-                *worst = f64::max(*worst, error.abs());
+            for (sum, error) in squares.iter_mut().zip(sample.errors(&weights)) {
+                *sum += error * error;
             }
         }
     }
-    errors
+    squares.map(|sum| (sum / samples.len() as f64).sqrt())
 }
 
 #[cfg(test)]

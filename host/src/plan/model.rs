@@ -135,7 +135,7 @@ pub struct Weights {
     pub code: [f64; OF_CODE],
     /// Bytes of functions' frames on the stack that each part of the code takes.
     pub frames: [f64; OF_CODE],
-    /// The largest relative error of instructions, flash and RAM, for scenes that were not learnt from.
+    /// The typical relative errors of instructions, flash and RAM, for scenes that were not learnt from.
     pub errors: [f64; 3],
 }
 

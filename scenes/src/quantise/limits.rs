@@ -92,10 +92,11 @@ pub fn limits<S: Quantize>(scene: &Scene, max_depth: u32) -> Result<(), Overflow
         }
     }
     let floating = S::FRACTION_BITS.is_none();
-    let transmits = scene.surfaces.iter().enumerate();
-    for (i, surface) in transmits.filter(|(_, s)| !floating && s.refract > 1.0) {
+    // Only floats take a surface that lets more light through than it gets.
+    let heavy = (scene.surfaces.iter()).position(|surface| !floating && surface.refract > 1.0);
+    if let Some(i) = heavy {
         let what = format!("the transmitted share of surface {}", i + 1);
-        return Err(overflow(what, surface.refract, 1.0));
+        return Err(overflow(what, scene.surfaces[i].refract, 1.0));
     }
     Ok(())
 }
