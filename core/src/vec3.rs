@@ -43,6 +43,17 @@ impl<S: Scalar> Vec3<S> {
         S::product(self.x, other.x) + S::product(self.y, other.y) + S::product(self.z, other.z)
     }
 
+    /// The cross product; each component is rounded once.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        let part = |a, b, c, d| S::narrow(S::product(a, b) - S::product(c, d));
+        vec3(
+            part(self.y, other.z, self.z, other.y),
+            part(self.z, other.x, self.x, other.z),
+            part(self.x, other.y, self.y, other.x),
+        )
+    }
+
     /// The unit vector in this direction, and the length.
     #[inline(always)]
     pub fn unit(self) -> (Self, S) {

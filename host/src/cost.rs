@@ -60,6 +60,8 @@ pub struct CostMap {
     cell: u32,
     /// For every corner of cells the cost of all to its left and above it; `across` + 1 to a row.
     sums: Vec<f64>,
+    /// By how much of their mean neighbouring cells differ, on average.
+    roughness: f64,
 }
 
 impl CostMap {
@@ -86,7 +88,10 @@ impl CostMap {
         let costs = starts(rows.start, rows.end).map(|row| {
             interrupt.check()?;
             let of_cell = |column| {
-                let (x, y) = (column + middle, row + middle);
+                // The middle of a cell that is cut off may be outside.
+                let inside = |pixel: u32, end: u32| pixel.min((end - 1) / block * block);
+                let x = inside(column + middle, columns.end);
+                let y = inside(row + middle, rows.end);
                 worker.probe(&Region {
                     columns: x..x + block,
                     rows: y..y + block,
@@ -107,6 +112,9 @@ impl CostMap {
     /// The map of a region whose cells cost what is given, row by row.
     pub fn new(region: Region, cell: u32, costs: &[Vec<f64>]) -> Self {
         let across = costs.first().map_or(0, Vec::len);
+        let neighbours = || costs.iter().flat_map(|row| row.windows(2));
+        let difference: f64 = neighbours().map(|pair| (pair[0] - pair[1]).abs()).sum();
+        let mean: f64 = neighbours().map(|pair| (pair[0] + pair[1]) / 2.0).sum();
         let mut sums = vec![0.0; across + 1];
         for row in costs {
             let above = sums.len() - across - 1;
@@ -122,7 +130,22 @@ impl CostMap {
             across,
             cell,
             sums,
+            roughness: if mean > 0.0 { difference / mean } else { 0.0 },
         }
+    }
+
+    /// How many cells there are.
+    pub fn cells(&self) -> usize {
+        let down = self.sums.len() / (self.across + 1) - 1;
+        self.across * down
+    }
+
+    /// By how much the cost of a region is probably wrong: a pixel stands for a cell about as well as it does
+    /// for the next one, and the errors of several cells cancel out in part.
+    pub fn error(&self, region: &Region) -> f64 {
+        let pixels = region.columns.len() as f64 * region.rows.len() as f64;
+        let cells = pixels / f64::from(self.cell).powi(2);
+        self.cost(region) * self.roughness / cells.max(1.0).sqrt()
     }
 
     /// What a region costs; a cell that lies in it in part counts in part.
@@ -200,6 +223,17 @@ mod tests {
         let map = CostMap::new(region(0..8, 0..4), 4, &[vec![16.0, 32.0]]);
         assert_eq!(map.cost(&region(0..8, 0..1)), 12.0);
         assert_eq!(map.cost(&region(2..6, 0..4)), 24.0);
+    }
+
+    #[test]
+    fn the_errors_of_several_cells_cancel_out_in_part() {
+        let map = CostMap::new(region(0..8, 0..8), 4, &[vec![1.0, 3.0], vec![1.0, 3.0]]);
+        assert_eq!(map.cells(), 4);
+        assert_eq!(map.error(&region(0..4, 0..4)), 1.0);
+        assert_eq!(map.error(&region(0..4, 0..2)), 0.5);
+        assert_eq!(map.error(&region(0..8, 0..8)), 4.0);
+        let even = CostMap::new(region(0..8, 0..4), 4, &[vec![2.0, 2.0]]);
+        assert_eq!(even.error(&region(0..8, 0..4)), 0.0);
     }
 
     #[test]

@@ -52,6 +52,8 @@ pub struct Built {
     pub format: &'static str,
     /// The scene was scaled by 2 to this power.
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    pub too_fine: Option<String>,
     /// The octree.
     pub octree: Octree,
     /// Columns and rows of the picture.
@@ -147,6 +149,16 @@ impl Plan<'_> {
         quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
     }
 
+    /// The view as quantisation wants it.
+    fn quantised_view(&self) -> View {
+        View {
+            size: self.view.size,
+            pixels_per_ray: self.view.pixels_per_ray.number(),
+            samples: self.view.samples,
+            max_depth: self.view.max_depth,
+        }
+    }
+
     /// With any tree.
     fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
         let variant = match self.tree.kind {
@@ -196,13 +208,7 @@ impl Plan<'_> {
     }
 
     fn prepare<S: Quantize>(&self) -> Result<Prepared<S>, Error> {
-        let view = View {
-            size: self.view.size,
-            pixels_per_ray: self.view.pixels_per_ray.number(),
-            samples: self.view.samples,
-            max_depth: self.view.max_depth,
-        };
-        quantise::quantise::<S>(self.scene, &view)
+        quantise::quantise::<S>(self.scene, &self.quantised_view())
             .map_err(|overflow| Error::Failed(overflow.to_string()))
     }
 
@@ -216,6 +222,9 @@ impl Plan<'_> {
         let built = Built {
             format: S::NAME,
             scale: prepared.placement.exponent,
+            too_fine: quantise::resolution::<S>(self.scene, &self.quantised_view())
+                .err()
+                .map(|fine| fine.to_string()),
             octree: Octree {
                 kind: self.tree.kind,
                 nodes: u64::from(summary.inner + summary.leaves),

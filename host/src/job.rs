@@ -68,21 +68,21 @@ pub const DEEPEST: u32 = 64;
 pub struct WorkOptions {
     /// How many threads trace.
     pub threads: NonZeroUsize,
-    /// Which thread gets which packet.
-    pub policy: Policy,
-    /// How large packets are; rows and columns even with four pixels per ray.
-    pub packet: Shape,
+    /// Which thread gets which packet; chosen for the scene ([`crate::packing`]) if `None`.
+    pub policy: Option<Policy>,
+    /// How large packets are, rows and columns even with four pixels per ray; chosen if `None`.
+    pub packet: Option<Shape>,
     /// Whether each thread stays on one core.
     pub pin: bool,
 }
 
-/// One thread for each core, dynamic dealing of four rows at a time.
+/// One thread for each core, the packing chosen.
 impl Default for WorkOptions {
     fn default() -> Self {
         Self {
             threads: available_parallelism().unwrap_or(NonZeroUsize::MIN),
-            policy: Policy::Dynamic,
-            packet: Shape::strip(const { NonZeroU32::new(4).unwrap() }),
+            policy: None,
+            packet: None,
             pin: false,
         }
     }

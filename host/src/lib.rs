@@ -6,6 +6,7 @@
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
 //! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
+//! - [`packing`]: the shape of packets and the way to deal them that suit a scene
 //! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
@@ -30,6 +31,7 @@ pub mod measure;
 pub mod metric;
 pub mod output;
 pub mod packets;
+pub mod packing;
 pub mod picture;
 pub mod plan;
 pub mod progress;

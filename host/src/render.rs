@@ -22,6 +22,8 @@ pub struct Traced {
     pub format: String,
     /// The scene was scaled by 2 to this power.
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    pub too_fine: Option<String>,
     /// Rays by kind.
     pub rays: Rays,
     /// Voxels or nodes that rays went through.
@@ -82,6 +84,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         arith: job.arith,
         format: traced.format.clone(),
         scale: traced.scale,
+        too_fine: traced.too_fine.clone(),
         size: traced.picture.size(),
         rays: traced.rays,
         steps: traced.steps,
@@ -145,6 +148,7 @@ mod tests {
             picture: Picture::from_levels(scene.width, scene.height, levels).unwrap(),
             format: "f32".into(),
             scale: 0,
+            too_fine: None,
             rays: Rays::default(),
             steps: 0,
             tests: 0,
@@ -162,8 +166,9 @@ mod tests {
             work: Work {
                 threads: 1,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::default().packet,
+                packet: crate::packing::FIXED.1,
                 packets: 1,
+                forecast: None,
                 idle: vec![0.0],
             },
         })

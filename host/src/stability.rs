@@ -2,6 +2,8 @@
 
 mod data;
 mod map;
+mod overview;
+mod queries;
 mod table;
 
 use crate::canvas;
@@ -9,8 +11,9 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::progress::Progress;
-use octray_stability::method::Method;
+use octray_stability::method::{Method, Sweep};
 use octray_stability::survey::{self, survey};
+use octray_stability::sweep::polygon::Polygon;
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -26,6 +29,8 @@ pub struct StabilityJob {
     pub json: Option<PathBuf>,
     /// Where to write everything as CSV.
     pub csv: Option<PathBuf>,
+    /// The arithmetics, by their numbers, whose limits to tell in one table for all methods.
+    pub overview: Option<Vec<usize>>,
     /// How many threads measure.
     pub threads: NonZeroUsize,
 }
@@ -62,9 +67,16 @@ pub fn run(job: &StabilityJob, interrupt: &Interrupt) -> Result<(), Error> {
                 let file = folder.join(format!("{name}.{end}"));
                 canvas::write_figure(&file, &map::Map(outcome), interrupt)?;
             }
+            if name == Polygon::ABOUT.name {
+                let file = folder.join("polygon-queries.png");
+                canvas::write_figure(&file, &queries::Queries::new(), interrupt)?;
+            }
         }
     }
     output::write_stdout(interrupt, |out| {
+        if let Some(arithmetics) = &job.overview {
+            return write!(out, "{}", overview::of(&survey, arithmetics));
+        }
         for outcome in &survey.outcomes {
             writeln!(out, "{}", table::of(outcome))?;
         }

@@ -4,6 +4,7 @@ use crate::deal::Policy;
 use crate::facts::Facts;
 use crate::job::{Arith, Tree};
 use crate::packets::Shape;
+use crate::packing::Forecast;
 use serde::{Serialize, Serializer};
 
 /// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
@@ -25,6 +26,9 @@ pub struct Stats {
     /// The scene was scaled by 2 to this power to fit the format.
     #[serde(skip)]
     pub scale: i32,
+    /// What the format is too coarse for, if anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub too_fine: Option<String>,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// Rays by kind.
@@ -108,6 +112,8 @@ pub struct Work {
     pub packet: Shape,
     /// How many there were.
     pub packets: usize,
+    /// Why they were so large and so dealt, if that was chosen.
+    pub forecast: Option<Forecast>,
     /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
     pub idle: Vec<f64>,
 }
@@ -119,7 +125,7 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::job::WorkOptions;
+    use crate::packing::FIXED;
 
     /// Statistics in which every number is another.
     pub(crate) fn example() -> Stats {
@@ -136,6 +142,7 @@ pub(crate) mod tests {
             arith: Arith::Auto,
             format: "i12f20".into(),
             scale: -3,
+            too_fine: None,
             size: (512, 256),
             rays: Rays {
                 primary: 131_072,
@@ -163,8 +170,15 @@ pub(crate) mod tests {
             work: Work {
                 threads: 2,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::default().packet,
+                packet: FIXED.1,
                 packets: 64,
+                forecast: Some(Forecast {
+                    probed: 324,
+                    simulated: 6,
+                    seconds: 0.000_25,
+                    speed_up: 1.9876,
+                    fixed: 1.9567,
+                }),
                 idle: vec![0.0005, 0.0],
             },
             hash: 0x0012_3456_789a_bcde,
@@ -181,6 +195,7 @@ pub(crate) mod tests {
             r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
             r#""threads":2,"schedule":"dynamic","packet":{"rows":4,"columns":null},"packets":64,"#,
+            r#""forecast":{"probed":324,"simulated":6,"seconds":0.00025,"speed_up":1.9876,"fixed":1.9567},"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );
         assert_eq!(text, expected);

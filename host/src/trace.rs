@@ -1,12 +1,12 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
-use crate::cost::{CostMap, dearest_first};
-use crate::deal::{Deal, Policy};
+use crate::deal::Deal;
 use crate::engine::{self, Engine};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::{Packets, Shape};
+use crate::packets::Packets;
+use crate::packing;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
@@ -16,7 +16,7 @@ use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_scenes::model::Scene;
-use std::num::{NonZeroU32, NonZeroUsize};
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
 /// Trace what the job asks for.
@@ -44,6 +44,7 @@ pub fn trace(
         picture,
         format: built.format.into(),
         scale: built.scale,
+        too_fine: built.too_fine.clone(),
         rays: Rays {
             primary: counters.rays_of(RayKind::Primary),
             shadow: counters.rays_of(RayKind::Shadow),
@@ -84,20 +85,16 @@ pub fn render(
         rows: built.active.rows.clone(),
     };
     picture.fill_outside(region.rows.clone(), built.background);
-    let (policy, shape) = (job.policy, job.packet);
-    let packets = Packets::cut(&mut picture, &region, shape);
-    let count = packets.len();
-    let threads = job.threads.min(at_least_one(count));
     // Those of the probe are not the picture's.
     let before = scalar::saturations();
-    let order = match policy {
-        Policy::CostOrdered => order(engine, &region, shape, interrupt)?,
-        _ => Vec::new(),
-    };
+    let packing = packing::choose(engine, &region, job, interrupt)?;
     let probed = scalar::saturations().wrapping_sub(before);
+    let packets = Packets::cut(&mut picture, &region, packing.shape);
+    let count = packets.len();
+    let threads = job.threads.min(at_least_one(count));
     progress.start(count);
     let finished = run_packets(
-        &Deal::new(policy, count, threads, order),
+        &Deal::new(packing.policy, count, threads, packing.order),
         interrupt,
         |thread| {
             if job.pin {
@@ -119,26 +116,14 @@ pub fn render(
     }
     let work = Work {
         threads: finished.len(),
-        schedule: policy,
-        packet: shape,
+        schedule: packing.policy,
+        packet: packing.shape,
         packets: count,
+        forecast: packing.forecast,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
     let saturations = scalar::saturations().wrapping_sub(probed);
     Ok((picture, counters, work, u64::from(saturations)))
-}
-
-/// The packets from the dearest to the cheapest, by what one pixel in 256 costs.
-fn order(
-    engine: &dyn Engine,
-    region: &Region,
-    shape: Shape,
-    interrupt: &Interrupt,
-) -> Result<Vec<u32>, Error> {
-    let cell = const { NonZeroU32::new(16).unwrap() };
-    let map = CostMap::probe(engine, cell, interrupt)?;
-    let costs: Vec<f64> = shape.cut(region).map(|packet| map.cost(&packet)).collect();
-    Ok(dearest_first(&costs))
 }
 
 fn at_least_one(count: usize) -> NonZeroUsize {

@@ -53,6 +53,25 @@ fn writes_tables_data_and_maps_that_do_not_depend_on_the_threads() {
 }
 
 #[test]
+fn tells_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
+    let folder = TempDir::new().unwrap();
+    let line = "stability power polygon --limits f32,i16f16 -o maps";
+    let output = octray(folder.path(), line).output().unwrap();
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    // A head, its rule, and the forms of both methods.
+    assert_eq!(lines.len(), 2 + 2 + 2, "{text}");
+    assert!(lines[0].contains("f32 holds to") && lines[0].contains("i16f16 holds to"));
+    assert!(lines[4].contains("polygon") && lines[5].contains("thesis"));
+    let queries = picture::read(&folder.path().join("maps/polygon-queries.png")).unwrap();
+    // Points that are falsely in, and falsely out.
+    for level in [[230, 85, 13], [8, 69, 148]] {
+        assert!(queries.levels().contains(&level), "{level:?}");
+    }
+}
+
+#[test]
 fn an_unknown_method_is_bad_usage() {
     let folder = TempDir::new().unwrap();
     octray(folder.path(), "stability spheroid")

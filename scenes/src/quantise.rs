@@ -6,16 +6,18 @@
 //! middle of everything, lights and viewpoint included, becomes the origin, and the diagonal as
 //! large as the format holds, so that every coordinate, distance and difference of points fits. What cannot be
 //! scaled (colours, refraction indices) is bounded by [`limits`]; if it does not fit, the value
-//! that would overflow is named.
+//! that would overflow is named. [`fn@resolution`] tells what a format is too coarse for.
 
 mod camera;
 mod extent;
 mod limits;
+mod resolution;
 mod shapes;
 
 pub use camera::View;
 pub use extent::Extent;
 pub use limits::{Bound, Overflow, bounds, limits};
+pub use resolution::{TooFine, grain, resolution};
 
 use crate::model;
 use octray_core::packet::Frame;

@@ -10,6 +10,7 @@
 //! | [`random`] | cases |
 //! | [`stage`], [`spy`] | shapes one at a time; the rays that the tracer sends on from them |
 //! | [`tally`] | what is measured of a case, and what that is worth: three states |
+//! | [`setting`] | the scene that a value stands for: is it admitted? |
 //! | [`method`] | a method: its forms, the values swept, the bounds |
 //! | [`sweep`] | the methods, a file each |
 //! | [`mod@survey`] | all of them measured; limits |
@@ -23,6 +24,7 @@ pub mod method;
 pub mod number;
 pub mod random;
 pub mod record;
+pub mod setting;
 pub mod spy;
 pub mod stage;
 pub mod survey;

@@ -1,6 +1,7 @@
 //! A method under test: what it is about, and how it is measured in every arithmetic.
 
 use crate::number::{ARITHMETICS, Number};
+use crate::setting::Setting;
 use crate::tally::{Bounds, Tally};
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 use serde::Serialize;
@@ -44,6 +45,9 @@ pub trait Sweep {
     /// What it is about.
     const ABOUT: About;
 
+    /// The scene and the view that a value stands for.
+    fn setting(value: f64) -> Setting;
+
     /// Measures all forms at `value`.
     fn measure<S: Number>(value: f64) -> Vec<Tally>;
 }
@@ -53,7 +57,8 @@ pub trait Sweep {
 pub struct Method {
     /// What it is about.
     pub about: About,
-    runners: [fn(f64) -> Vec<Tally>; ARITHMETICS.len()],
+    setting: fn(f64) -> Setting,
+    runners: [Runner; ARITHMETICS.len()],
 }
 
 impl Method {
@@ -61,26 +66,48 @@ impl Method {
     pub const fn of<W: Sweep>() -> Self {
         Self {
             about: W::ABOUT,
+            setting: W::setting,
             runners: [
-                W::measure::<f64>,
-                W::measure::<f32>,
-                W::measure::<Approx<2>>,
-                W::measure::<Approx<1>>,
-                W::measure::<Approx<0>>,
-                W::measure::<Fixed64>,
-                W::measure::<Fixed<28, true>>,
-                W::measure::<Fixed<24, true>>,
-                W::measure::<Fixed<20, true>>,
-                W::measure::<Fixed<16, true>>,
-                W::measure::<Fixed<12, true>>,
-                W::measure::<Fixed<8, true>>,
+                Runner::of::<W, f64>(),
+                Runner::of::<W, f32>(),
+                Runner::of::<W, Approx<2>>(),
+                Runner::of::<W, Approx<1>>(),
+                Runner::of::<W, Approx<0>>(),
+                Runner::of::<W, Fixed64>(),
+                Runner::of::<W, Fixed<28, true>>(),
+                Runner::of::<W, Fixed<24, true>>(),
+                Runner::of::<W, Fixed<20, true>>(),
+                Runner::of::<W, Fixed<16, true>>(),
+                Runner::of::<W, Fixed<12, true>>(),
+                Runner::of::<W, Fixed<8, true>>(),
             ],
         }
     }
 
     /// Measures all forms at `value` in arithmetic number `arithmetic` of [`ARITHMETICS`].
     pub fn measure(&self, arithmetic: usize, value: f64) -> Vec<Tally> {
-        self.runners[arithmetic](value)
+        (self.runners[arithmetic].measure)(value)
+    }
+
+    /// Whether that arithmetic admits the scene that `value` stands for.
+    pub fn admits(&self, arithmetic: usize, value: f64) -> bool {
+        (self.runners[arithmetic].admits)(&(self.setting)(value))
+    }
+}
+
+/// A sweep in one arithmetic.
+#[derive(Clone, Copy, Debug)]
+struct Runner {
+    measure: fn(f64) -> Vec<Tally>,
+    admits: fn(&Setting) -> bool,
+}
+
+impl Runner {
+    const fn of<W: Sweep, S: Number>() -> Self {
+        Self {
+            measure: W::measure::<S>,
+            admits: Setting::admitted::<S>,
+        }
     }
 }
 

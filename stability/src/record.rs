@@ -17,6 +17,13 @@ pub fn write(survey: &Survey) -> String {
     text
 }
 
+/// The states that a record has for a method, a form and an arithmetic, one symbol for each value
+/// swept; none if it has no such line.
+pub fn states<'a>(record: &'a str, [method, form, arithmetic]: [&str; 3]) -> Option<&'a str> {
+    let key = format!("{method},{form},{arithmetic},");
+    record.lines().find_map(|line| line.strip_prefix(&key))
+}
+
 fn lines(survey: &Survey) -> Vec<(String, String)> {
     let mut lines = Vec::new();
     for outcome in &survey.outcomes {

@@ -66,18 +66,21 @@ pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
     }
 }
 
-/// The rays that the tracer sends on from where `ray` meets the only object of `shapes`.
+/// The rays that the tracer sends on from where `ray` meets an object of `shapes`.
 pub fn leaving<S: Scalar>(
     shapes: Shapes<'_, S>,
     surface: Surface<S>,
     ray: &Ray<S>,
     hit: Hit<S>,
 ) -> Seen<S> {
-    let attributes = [Attributes {
-        id: 0,
-        surface: 0,
-        patch: Attributes::FLAT,
-    }];
+    let attributes = vec![
+        Attributes {
+            id: 0,
+            surface: 0,
+            patch: Attributes::FLAT,
+        };
+        shapes.len()
+    ];
     let surfaces = [surface];
     let scene = Scene {
         shapes,

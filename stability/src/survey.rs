@@ -17,6 +17,8 @@ pub struct Cell {
     pub state: State,
     /// What made them so.
     pub cause: Cause,
+    /// Whether the arithmetic admits the scene that the value stands for.
+    pub admitted: bool,
 }
 
 /// One method, measured.
@@ -44,9 +46,23 @@ impl Outcome {
         arithmetic: usize,
         state: State,
     ) -> Option<RangeInclusive<f64>> {
+        self.around_home(form, arithmetic, |cell| cell.state <= state)
+    }
+
+    /// The values around the gentlest one whose scenes an arithmetic admits; none if not even that.
+    pub fn admitted(&self, arithmetic: usize) -> Option<RangeInclusive<f64>> {
+        self.around_home(0, arithmetic, |cell| cell.admitted)
+    }
+
+    fn around_home(
+        &self,
+        form: usize,
+        arithmetic: usize,
+        good: impl Fn(&Cell) -> bool,
+    ) -> Option<RangeInclusive<f64>> {
         let (row, values) = (self.row(form, arithmetic), self.about.values);
         let home = values.iter().position(|v| *v == self.about.home)?;
-        let good = |i: &usize| row[*i].state <= state;
+        let good = |i: &usize| good(&row[*i]);
         if !good(&home) {
             return None;
         }
@@ -90,7 +106,8 @@ pub fn survey(
                 break;
             }
             let method = &methods[m];
-            mine.push(((m, a, v), method.measure(a, method.about.values[v])));
+            let value = method.about.values[v];
+            mine.push(((m, a, v), method.admits(a, value), method.measure(a, value)));
         }
         // A poisoned lock means that a thread has panicked, and with it the scope.
         if let Ok(mut done) = done.lock() {
@@ -107,7 +124,10 @@ pub fn survey(
     (done.len() == jobs.len()).then(|| gather(methods, done))
 }
 
-fn gather(methods: &[Method], done: Vec<((usize, usize, usize), Vec<Tally>)>) -> Survey {
+/// A place in a survey (method, arithmetic, value), whether it is admitted, and its forms' tallies.
+type Measured = ((usize, usize, usize), bool, Vec<Tally>);
+
+fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
     let mut outcomes: Vec<Outcome> = methods
         .iter()
         .map(|method| {
@@ -116,6 +136,7 @@ fn gather(methods: &[Method], done: Vec<((usize, usize, usize), Vec<Tally>)>) ->
                 tally: Tally::default(),
                 state: State::Holds,
                 cause: Cause::None,
+                admitted: false,
             };
             let count = about.forms.len() * ARITHMETICS.len() * about.values.len();
             Outcome {
@@ -124,7 +145,7 @@ fn gather(methods: &[Method], done: Vec<((usize, usize, usize), Vec<Tally>)>) ->
             }
         })
         .collect();
-    for ((m, a, v), tallies) in done {
+    for ((m, a, v), admitted, tallies) in done {
         let outcome = &mut outcomes[m];
         let about = outcome.about;
         for (form, tally) in tallies.into_iter().enumerate() {
@@ -134,6 +155,7 @@ fn gather(methods: &[Method], done: Vec<((usize, usize, usize), Vec<Tally>)>) ->
                 tally,
                 state,
                 cause,
+                admitted,
             };
         }
     }

@@ -1,14 +1,20 @@
 //! The sweeps, one file for each method.
 
+pub mod arena;
+pub mod coincident;
 pub mod cone;
+pub mod depth;
 pub mod glass;
 pub mod ground;
 pub mod mirror;
+pub mod offset;
 pub mod plane;
 pub mod polygon;
 pub mod power;
 pub mod slab;
 pub mod sphere;
+pub mod subpixel;
+pub mod voxel;
 
 use crate::method::Method;
 
@@ -26,4 +32,10 @@ pub static ALL: &[Method] = &[
     Method::of::<glass::Glass>(),
     Method::of::<glass::Critical>(),
     Method::of::<power::Power>(),
+    Method::of::<offset::Offset>(),
+    Method::of::<voxel::Voxel>(),
+    Method::of::<coincident::Coincident>(),
+    Method::of::<subpixel::SubPixel>(),
+    Method::of::<depth::Depth>(),
+    Method::of::<arena::Arena>(),
 ];

@@ -33,8 +33,8 @@ pub struct Cone<S> {
 }
 
 impl<S: Scalar> Cone<S> {
-    /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale,
-    /// and its smaller root taken as c/q: from a distant origin it would cancel.
+    /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale:
+    /// from a distant origin it would cancel.
     #[inline(always)]
     pub(super) fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
         let d = ray.direction;
@@ -49,24 +49,39 @@ impl<S: Scalar> Cone<S> {
         // cos · (distance from the axis) = cos · mid_radius + sin · height, at w + t d.
         let rise = d.dot(self.axis);
         let height = w.dot(self.axis);
-        let radial = w - self.axis * height;
-        let edge = self.cos * self.mid_radius + self.sin * height;
-        let cos_square = self.cos * self.cos;
-        let a = (self.cos - rise) * (self.cos + rise);
-        let b =
-            S::narrow(S::product(cos_square, d.dot(radial)) - S::product(self.sin * rise, edge));
-        let c = S::narrow(S::product(cos_square, radial.dot(radial)) - S::product(edge, edge));
-        let discriminant = S::product(b, b) - S::product(a, c);
+        let mid_edge = self.cos * self.mid_radius;
+        let edge = mid_edge + self.sin * height;
+        let steep = self.sin * rise;
+        // (b² − ac) / cos² as a difference of squares about as small as the radius (Lagrange's
+        // identity): b² and ac themselves are lost in coarse formats.
+        let turn = d * edge - w * steep - self.axis * (rise * mid_edge);
+        let past = self.cos * d.cross(w).dot(self.axis);
+        let discriminant = turn.dot_wide(turn) - S::product(past, past);
         if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }
-        let root = S::sqrt_wide(discriminant);
-        let q = if b < S::ZERO { root - b } else { -b - root };
+        let root = self.cos * S::sqrt_wide(discriminant);
+        let cos_square = self.cos * self.cos;
+        let a = (self.cos - rise) * (self.cos + rise);
+        let along = S::narrow(d.dot_wide(w) - S::product(rise, height));
+        let b = S::narrow(S::product(cos_square, along) - S::product(steep, edge));
+        let (q, rest) = if b < S::ZERO {
+            (root - b, -b - root)
+        } else {
+            (-b - root, root - b)
+        };
 
         // Every hit lies within the bounding sphere, at |t| ≤ 1 in local scale for fixed point:
-        // compare before dividing.
+        // compare before dividing. The smaller root is divided by what is larger: along the side
+        // a vanishes, and in a thin cone q.
         let first = self.root(q, a);
-        let second = self.root(c, q);
+        let second = if a.abs() < q.abs() {
+            let apart = S::narrow(w.dot_wide(w) - S::product(height, height));
+            let c = S::product(cos_square, apart) - S::product(edge, edge);
+            self.root(S::narrow(c), q)
+        } else {
+            self.root(rest, a)
+        };
         let (first, second) = match (first, second) {
             (Some(x), Some(y)) if y < x => (second, first),
             _ => (first, second),

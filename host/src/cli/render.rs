@@ -8,6 +8,7 @@ use crate::job::{
     WorkOptions,
 };
 use crate::packets::Shape;
+use crate::packing;
 use crate::picture::{RasDepth, Target};
 use clap::{Args, value_parser};
 use std::fs;
@@ -68,13 +69,13 @@ pub struct RenderArgs {
     /// How many threads trace [default: one for each core]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>, help_heading = WORK)]
     threads: Option<NonZeroUsize>,
-    /// Which thread gets which packet
-    #[arg(long, value_name = "HOW", value_enum, default_value_t, help_heading = WORK)]
-    schedule: Policy,
-    /// Rows of a packet
-    #[arg(long, value_name = "H", default_value = "4", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
-    packet_rows: NonZeroU32,
-    /// Columns of a packet [default: all]
+    /// Which thread gets which packet [default: chosen for the scene, told in the statistics]
+    #[arg(long, value_name = "HOW", value_enum, help_heading = WORK)]
+    schedule: Option<Policy>,
+    /// Rows of a packet [default: chosen; 4 with --packet-columns]
+    #[arg(long, value_name = "H", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
+    packet_rows: Option<NonZeroU32>,
+    /// Columns of a packet [default: chosen; all with --packet-rows]
     #[arg(long, value_name = "W", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     packet_columns: Option<NonZeroU32>,
     /// Keep each thread on one core
@@ -97,7 +98,7 @@ impl RenderArgs {
             if self.samples > 1 {
                 return usage("--pixels-per-ray 4 and --samples above 1 contradict each other");
             }
-            let sides = [Some(self.packet_rows), self.packet_columns];
+            let sides = [self.packet_rows, self.packet_columns];
             if sides.into_iter().flatten().any(|side| side.get() % 2 == 1) {
                 return usage(
                     "with --pixels-per-ray 4, --packet-rows and --packet-columns must be even",
@@ -143,9 +144,12 @@ impl RenderArgs {
             work: WorkOptions {
                 threads: self.threads.unwrap_or(WorkOptions::default().threads),
                 policy: self.schedule,
-                packet: Shape {
-                    rows: self.packet_rows,
-                    columns: self.packet_columns,
+                packet: match (self.packet_rows, self.packet_columns) {
+                    (None, None) => None,
+                    (rows, columns) => Some(Shape {
+                        rows: rows.unwrap_or(packing::FIXED.1.rows),
+                        columns,
+                    }),
                 },
                 pin: self.pin,
             },
@@ -222,14 +226,23 @@ mod tests {
         assert_eq!(job.tree, tree);
         let work = WorkOptions {
             threads: NonZeroUsize::new(5).unwrap(),
-            policy: Policy::WorkStealing,
-            packet: Shape {
+            policy: Some(Policy::WorkStealing),
+            packet: Some(Shape {
                 rows: NonZeroU32::new(3).unwrap(),
                 columns: NonZeroU32::new(8),
-            },
+            }),
             pin: true,
         };
         assert_eq!(job.work, work);
+    }
+
+    #[test]
+    fn one_side_of_a_packet_is_enough() {
+        let shape = |line| job(line).work.packet.map(|shape| shape.to_string());
+        assert_eq!(shape("a.scene"), None);
+        assert_eq!(shape("a.scene --packet-rows 9").as_deref(), Some("9 rows"));
+        let tiles = shape("a.scene --packet-columns 9");
+        assert_eq!(tiles.as_deref(), Some("9 x 4 pixels"));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::stability::StabilityJob;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use octray_stability::method::Method;
+use octray_stability::number::ARITHMETICS;
 use octray_stability::sweep;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -13,13 +14,22 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Truth is exact, and cases are the same on every machine. What holds, degrades and breaks is said above each table; \
-the limits are those around the gentlest value. In maps, a dot holds, a pale symbol degrades and a dark \
-one breaks.")]
+the limits are those around the gentlest value. A value is admitted if its scene fits the arithmetic and is not too \
+fine for it; there, no shipped form breaks. In maps, a dot holds, a pale symbol degrades and a dark one breaks; a bar \
+ends what is admitted.")]
 pub struct StabilityArgs {
     /// The methods to look at [default: all]
     #[arg(value_name = "METHOD", value_parser = method())]
     methods: Vec<Method>,
-    /// Write a map of each method into this folder, as SVG and as PNG
+    /// Tell the limits in these arithmetics only, in one table for all methods
+    #[arg(
+        long,
+        value_name = "ARITH,...",
+        value_parser = arithmetic(),
+        value_delimiter = ','
+    )]
+    limits: Option<Vec<usize>>,
+    /// Write a map of each method into this folder, as SVG and as PNG; of polygons also the queries
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     /// Write all that was measured as JSON
@@ -43,6 +53,7 @@ impl StabilityArgs {
                 self.methods
             },
             folder: self.output,
+            overview: self.limits,
             json: self.json,
             csv: self.csv,
             threads: self.threads.unwrap_or_else(|| {
@@ -50,6 +61,13 @@ impl StabilityArgs {
             }),
         }
     }
+}
+
+fn arithmetic() -> impl TypedValueParser<Value = usize> {
+    PossibleValuesParser::new(ARITHMETICS).try_map(|name| {
+        let named = ARITHMETICS.iter().position(|other| *other == name);
+        named.ok_or("no such arithmetic")
+    })
 }
 
 fn method() -> impl TypedValueParser<Value = Method> {

@@ -84,7 +84,9 @@ pub struct Tried {
     pub fraction_bits: Option<u32>,
     /// In dB; none if it is the same picture.
     pub psnr: Option<f64>,
-    /// Whether that is enough, and nothing overflows.
+    /// What it is too coarse for, if anything.
+    pub too_fine: Option<String>,
+    /// Whether that is accurate enough, nothing is too fine, and nothing overflows.
     pub does: bool,
 }
 
@@ -209,7 +211,8 @@ impl Scope<'_> {
             format,
             fraction_bits,
             psnr: psnr.is_finite().then_some(psnr),
-            does: psnr >= self.min_psnr && probe.saturations == 0,
+            does: psnr >= self.min_psnr && probe.too_fine.is_none() && probe.saturations == 0,
+            too_fine: probe.too_fine,
         })
     }
 }
@@ -218,17 +221,20 @@ impl Accuracy {
     /// The narrowest format of each family that does.
     pub fn narrowest(&self) -> impl Iterator<Item = &Tried> {
         let of = |fixed: bool| {
-            let family = self.tried.iter();
-            (family.filter(move |tried| tried.fraction_bits.is_some() == fixed && tried.does))
-                .next_back()
+            let mut tried = self.tried.iter();
+            tried.rfind(|tried| tried.fraction_bits.is_some() == fixed && tried.does)
         };
         [of(true), of(false)].into_iter().flatten()
     }
 
-    /// The one that comes closest to the exact picture.
+    /// The one that comes closest to the exact picture, of those that nothing is too fine for if there are any.
     pub fn closest(&self) -> Option<&Tried> {
-        let distance = |tried: &&Tried| tried.psnr.unwrap_or(f64::INFINITY);
-        (self.tried.iter()).max_by(|a, b| distance(a).total_cmp(&distance(b)))
+        let distance = |tried: &Tried| tried.psnr.unwrap_or(f64::INFINITY);
+        (self.tried.iter()).max_by(|a, b| {
+            let resolves = [a, b].map(|tried| tried.too_fine.is_none());
+            let further = distance(a).total_cmp(&distance(b));
+            resolves[0].cmp(&resolves[1]).then(further)
+        })
     }
 }
 

@@ -1,9 +1,12 @@
 //! What happens while a frame is traced, counted on the host: what instructions are predicted from.
 
+use super::model::ROWS;
+use crate::deal::Policy;
 use crate::engine::{self, Engine};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{PixelsPerRay, ViewOptions, WorkOptions};
+use crate::packets::Shape;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::trace;
@@ -12,6 +15,7 @@ use octray_core::octree::Options;
 use octray_scenes::bake::Tree;
 use octray_scenes::model::Scene;
 use octray_scenes::plan::Plan;
+use std::num::NonZeroU32;
 
 /// How many events of a search there are.
 pub const OF_SEARCH: usize = 14;
@@ -120,6 +124,8 @@ pub struct Probe {
     pub waiting: usize,
     /// Fixed-point results that had to be clamped.
     pub saturations: u64,
+    /// What the format is too coarse for, if anything.
+    pub too_fine: Option<String>,
     /// Nodes of the tree.
     pub nodes: u64,
     /// The deepest level of the tree, the root being level 1; 0 without a tree.
@@ -153,7 +159,14 @@ impl Probe {
     }
 
     fn trace(engine: &dyn Engine, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {
-        let work = WorkOptions::default();
+        // As the firmware cuts the picture, which forgets between strips what blocked the lights.
+        let work = WorkOptions {
+            policy: Some(Policy::Dynamic),
+            packet: Some(Shape::strip(
+                const { NonZeroU32::new(ROWS as u32).unwrap() },
+            )),
+            ..WorkOptions::default()
+        };
         let progress = Progress::hidden();
         let traced = trace::render(engine, &work, false, &progress, interrupt)?;
         let (picture, counters, _, saturations) = traced;
@@ -164,6 +177,7 @@ impl Probe {
             events: Events::new(&counters, pixels, scene.lights.len()),
             waiting: counters.deepest as usize,
             saturations,
+            too_fine: built.too_fine.clone(),
             nodes: built.octree.nodes,
             depth: built.octree.depth,
             scale: built.scale,

@@ -85,7 +85,10 @@ pub(super) fn numbers(
         chosen: arith.into(),
         why,
         cheaper: narrower.map(|tried| Cheaper {
-            choice: tried.format.into(),
+            choice: match &tried.too_fine {
+                Some(why) => why.clone(),
+                None => tried.format.into(),
+            },
             psnr: Some(tried.psnr.unwrap_or(f64::INFINITY)),
             ..Cheaper::default()
         }),

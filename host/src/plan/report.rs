@@ -100,6 +100,10 @@ impl Report {
     pub fn inaccurate(job: &PlanJob, accuracy: &Accuracy) -> Self {
         let bound = job.bounds.min_psnr;
         let why = match accuracy.closest() {
+            Some(Tried {
+                too_fine: Some(why),
+                ..
+            }) => format!("resolution: {why}"),
             Some(Tried { format, psnr, .. }) => {
                 let psnr = (psnr.unwrap_or(f64::INFINITY) * 100.0).floor() / 100.0;
                 format!(

@@ -24,7 +24,7 @@ impl Figure for Map<'_> {
     fn size(&self) -> (u32, u32) {
         let (across, down) = panels(self.0);
         let (width, height) = panel(self.0);
-        let width = (MARGIN + across * width).max(700);
+        let width = (MARGIN + across * width).max(820);
         (
             width as u32,
             (2 * MARGIN + 2 * LINE + 8 + down * height) as u32,
@@ -82,6 +82,11 @@ fn paint_form<B: DrawingBackend>(
         write(area, arithmetic, beside, 13, HPos::Right)?;
         for (v, cell) in outcome.row(form, a).iter().enumerate() {
             paint_cell(area, cell, (left + NAMES + v as i32 * CELL.0, y))?;
+        }
+        if let Some(range) = outcome.admitted(a).filter(|_| form == 0) {
+            let last = about.values.iter().position(|v| v == range.end());
+            let x = left + NAMES + last.map_or(0, |v| v as i32 + 1) * CELL.0 - 1;
+            area.draw(&bar(x, y))?;
         }
     }
     let bottom = top + ARITHMETICS.len() as i32 * CELL.1 + 3;
@@ -163,12 +168,18 @@ fn colours(cell: &Cell) -> (RGBColor, RGBColor) {
     (fill, if dark { WHITE } else { BLACK })
 }
 
+/// Ends what is admitted of an arithmetic.
+fn bar(x: i32, y: i32) -> Rectangle<(i32, i32)> {
+    Rectangle::new([(x - 1, y - 1), (x + 1, y + CELL.1)], BLACK.filled())
+}
+
 fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) -> Drawn<B> {
     let mut x = left;
     let sample = |state, cause| Cell {
         tally: Default::default(),
         state,
         cause,
+        admitted: false,
     };
     let entries = [
         (sample(State::Holds, Cause::None), "holds"),
@@ -185,5 +196,6 @@ fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) ->
         write(area, text, (x + CELL.0 + 4, y + 3), 13, HPos::Left)?;
         x += CELL.0 + 16 + 6 * text.len() as i32;
     }
-    Ok(())
+    area.draw(&bar(x, y))?;
+    write(area, "admitted to here", (x + 6, y + 3), 13, HPos::Left)
 }

@@ -6,9 +6,10 @@ use octray_stability::number::ARITHMETICS;
 use octray_stability::survey::Outcome;
 use octray_stability::tally::{Bound, State};
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
-/// A method's title, its forms and bounds, and for each form and arithmetic the values up to which
-/// it holds, and up to which it does not break.
+/// A method's title, its forms and bounds, and for each arithmetic the values up to which it is
+/// admitted, each form holds, and does not break.
 pub(super) fn of(outcome: &Outcome) -> String {
     let about = &outcome.about;
     let mut text = format!("{} ({}): {}\n", about.title, about.name, about.axis);
@@ -23,14 +24,14 @@ pub(super) fn of(outcome: &Outcome) -> String {
     );
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN);
-    let mut head = vec![String::new()];
+    let mut head = vec![String::new(), "admitted".into()];
     for form in about.forms {
         head.push(format!("{} holds", form.name));
         head.push("breaks beyond".into());
     }
     table.set_header(head);
     for (a, arithmetic) in ARITHMETICS.iter().enumerate() {
-        let mut line = vec![String::from(*arithmetic)];
+        let mut line = vec![String::from(*arithmetic), admitted(outcome, a)];
         for f in 0..about.forms.len() {
             line.push(limit(outcome, f, a, State::Holds));
             line.push(limit(outcome, f, a, State::Degrades));
@@ -63,11 +64,19 @@ fn bounds(about: &About) -> (String, String) {
     (told(|b| b.holds), told(|b| b.degrades))
 }
 
-/// The values around the gentlest one where the state is no worse, a dash if there is none. An end
-/// of the sweep is marked: who knows what lies beyond.
-fn limit(outcome: &Outcome, form: usize, arithmetic: usize, state: State) -> String {
-    let about = &outcome.about;
-    let Some(range) = outcome.limits(form, arithmetic, state) else {
+/// The values around the gentlest one where the state is no worse.
+pub(super) fn limit(outcome: &Outcome, form: usize, arithmetic: usize, state: State) -> String {
+    told(&outcome.about, outcome.limits(form, arithmetic, state))
+}
+
+/// The values around the gentlest one whose scenes the arithmetic admits.
+pub(super) fn admitted(outcome: &Outcome, arithmetic: usize) -> String {
+    told(&outcome.about, outcome.admitted(arithmetic))
+}
+
+/// A dash for no value. An end of the sweep is marked: who knows what lies beyond.
+fn told(about: &About, range: Option<RangeInclusive<f64>>) -> String {
+    let Some(range) = range else {
         return "-".into();
     };
     let (low, high) = (*range.start(), *range.end());

@@ -29,13 +29,41 @@ pub(super) struct Rays {
     parallel: bool,
 }
 
+const CORNERS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+
 impl Rays {
+    /// Whether the rays go side by side.
+    pub(super) const fn is_parallel(&self) -> bool {
+        self.parallel
+    }
+
+    /// The least distance between neighbouring rays of a picture of this many columns and rows:
+    /// in radians, or in scene units if they are parallel.
+    pub(super) fn pixel(&self, (width, height): (u32, u32)) -> f64 {
+        let steps = [
+            times(self.right, 2.0 / f64::from(width)),
+            times(self.up, 2.0 / f64::from(height)),
+        ];
+        if self.parallel {
+            return length(steps[0]).min(length(steps[1]));
+        }
+        // Narrowest in a corner.
+        let mut least = f64::INFINITY;
+        for [x, y] in CORNERS {
+            let ray = add(self.forward, add(times(self.right, x), times(self.up, y)));
+            for step in steps {
+                least = least.min(length(cross(step, ray)) / dot(ray, ray));
+            }
+        }
+        least
+    }
+
     /// Places where rays can start.
     pub(super) fn starts(&self) -> Vec<Point> {
         if !self.parallel {
             return vec![self.origin];
         }
-        [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
+        CORNERS
             .into_iter()
             .map(|[x, y]| add(self.origin, add(times(self.right, x), times(self.up, y))))
             .collect()

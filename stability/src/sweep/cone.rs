@@ -4,13 +4,14 @@ use crate::exact::{Exact, Exact3, add, angle, dot, exact, exact3, near, root, su
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats};
 use crate::random::{self, Random, dot as dot64};
+use crate::setting::Setting;
 use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
-use octray_scenes::model::{Camera, Light, Object, Projection, Scene, Shape, Surface};
-use octray_scenes::quantise::{Prepared, View, quantise};
+use octray_scenes::model::Shape;
+use octray_scenes::quantise::Prepared;
 
 const FORMS: &[Form] = &[
     Form {
@@ -46,6 +47,10 @@ impl Sweep for Thin {
         bounds: BOUNDS,
     };
 
+    fn setting(value: f64) -> Setting {
+        Truncated::around([0.6, 0.0, 0.8], 1.0, [1.0 / value, 0.5 / value]).seen([0.0, 1.5, 0.0])
+    }
+
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         sweep::<S>(10, |random| {
             let axis = random.direction();
@@ -73,6 +78,11 @@ impl Sweep for Apex {
         forms: FORMS,
         bounds: BOUNDS,
     };
+
+    fn setting(value: f64) -> Setting {
+        // Of the tip, a pixel's worth.
+        Setting::pixel(0.5 / value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         sweep::<S>(11, |random| {
@@ -102,6 +112,10 @@ impl Sweep for Far {
         bounds: BOUNDS,
     };
 
+    fn setting(value: f64) -> Setting {
+        Truncated::around([0.6, 0.0, 0.8], 1.0, [0.4, 0.2]).seen([0.0, value, 0.0])
+    }
+
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         sweep::<S>(12, |random| {
             let axis = random.direction();
@@ -130,6 +144,16 @@ impl Truncated {
             radii,
         }
     }
+
+    fn seen(&self, eye: [f64; 3]) -> Setting {
+        let cone = Shape::Cone {
+            base: self.base,
+            base_radius: self.radii[0],
+            top: self.top,
+            top_radius: self.radii[1],
+        };
+        Setting::of(cone, eye)
+    }
 }
 
 /// A cone, how far the ray's origin is from it, and at what share of its length the ray meets it.
@@ -154,9 +178,9 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally>
         let across = random.across(axis);
         let tilt = random::times(axis, random.between(-0.7, 0.7));
         let towards = random::times(random::add(across, tilt), -1.0);
-        let aside = cross(axis, across);
+        let aside = random::cross(axis, across);
         let eye = random::add(middle, random::times(towards, -case.distance));
-        let Some(prepared) = prepare::<S>(&cone, eye) else {
+        let Some(prepared) = cone.seen(eye).prepare::<S>() else {
             continue;
         };
         // From where the ray is aimed back to the eye, with the direction as it is rounded.
@@ -170,53 +194,6 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally>
         compare(&prepared, &cone, &ray, &local, &mut tallies);
     }
     tallies
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// The scene of a cone and an eye, in a format.
-fn prepare<S: Number>(cone: &Truncated, eye: [f64; 3]) -> Option<Prepared<S>> {
-    let scene = Scene {
-        camera: Camera::Nff {
-            from: eye,
-            at: cone.base,
-            up: [0.3, 0.5, 0.8],
-            angle: 45.0,
-            projection: Projection::Perspective,
-        },
-        width: 16,
-        height: 16,
-        background: [0.0; 3],
-        lights: vec![Light {
-            position: eye,
-            colour: [1.0; 3],
-        }],
-        surfaces: vec![Surface::default()],
-        objects: vec![Object {
-            shape: Shape::Cone {
-                base: cone.base,
-                base_radius: cone.radii[0],
-                top: cone.top,
-                top_radius: cone.radii[1],
-            },
-            surface: 0,
-        }],
-        vertices: Vec::new(),
-        normals: Vec::new(),
-    };
-    let view = View {
-        size: None,
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 1,
-    };
-    quantise(&scene, &view).ok()
 }
 
 fn compare<S: Number>(

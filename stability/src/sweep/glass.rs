@@ -5,6 +5,7 @@ use crate::exact::{Exact, Exact3, add, angle, dot, exact, root, times, unit};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{Number, counted, exactly};
 use crate::random::Random;
+use crate::setting::Setting;
 use crate::spy;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::vec3::Vec3;
@@ -41,6 +42,10 @@ impl Sweep for Glass {
         },
     };
 
+    fn setting(value: f64) -> Setting {
+        Setting::pixel(1.0 / value)
+    }
+
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];
         let mut random = Random::new(5);
@@ -70,6 +75,10 @@ impl Sweep for Critical {
             ..BOUNDS
         },
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::pixel(1.0 / value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];

@@ -4,6 +4,7 @@ use super::sphere::{compare, stable, textbook};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, span, vector};
 use crate::random::Random;
+use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape;
@@ -42,6 +43,10 @@ impl Sweep for Ground {
             ..Bounds::NONE
         },
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::sphere(value, value + 1.0)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 3];

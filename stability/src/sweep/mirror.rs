@@ -4,6 +4,7 @@ use crate::exact::{Exact, angle, dot, exact, sub, times};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly};
 use crate::random::{self, Random};
+use crate::setting::Setting;
 use crate::spy::{self, Seen};
 use crate::stage::{only, outline, polygon};
 use crate::tally::{Bounds, Tally, bound};
@@ -37,6 +38,10 @@ impl Sweep for Mirror {
         ],
         bounds: BOUNDS,
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::pixel(1.0 / value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];

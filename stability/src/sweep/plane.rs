@@ -4,6 +4,7 @@ use crate::exact::{Exact, dot, near};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span};
 use crate::random::{self, Random};
+use crate::setting::Setting;
 use crate::stage::{self, outline, polygon, square};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
@@ -37,6 +38,10 @@ impl Sweep for Plane {
             ..Bounds::NONE
         },
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::pixel(1.0 / value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];

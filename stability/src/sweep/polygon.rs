@@ -4,6 +4,7 @@ use crate::exact::Exact;
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted, span, vector};
 use crate::random::Random;
+use crate::setting::Setting;
 use crate::stage::{self, outline, polygon};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
@@ -55,6 +56,10 @@ impl Sweep for Polygon {
         },
     };
 
+    fn setting(_: f64) -> Setting {
+        Setting::pixel(1.0)
+    }
+
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];
         for query in queries::<S>(value) {
@@ -69,8 +74,11 @@ impl Sweep for Polygon {
     }
 }
 
-/// A star of four points, in units of 1/16 of its half width.
-const STAR: [[f64; 2]; 8] = [
+/// How far [`square`] reaches, in units of 1/16 of the star's half width.
+pub const REACH: i32 = 17;
+
+/// A star of four points, in those units.
+pub const STAR: [[f64; 2]; 8] = [
     [16.0, 0.0],
     [4.0, 4.0],
     [0.0, 16.0],
@@ -88,6 +96,39 @@ pub struct Query<S> {
     pub corners: [[S; 2]; 8],
     /// The point.
     pub point: [S; 2],
+}
+
+/// What is found of one point.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer {
+    /// The point, in units of 1/16 of the star's half width.
+    pub point: [f64; 2],
+    /// Whether it is inside.
+    pub truth: bool,
+    /// What each form says.
+    pub found: [bool; 2],
+}
+
+/// Answers for a square of points around the star, half a unit apart: many lie on its edges, their
+/// diagonals, and the lines on which the thesis's ray meets a vertex.
+pub fn square<S: Number>() -> Vec<Answer> {
+    let unit = span::<S>() / 4.0 / 16.0;
+    let corners = STAR.map(|c| c.map(|x| S::from_f64(x * unit)));
+    let steps = || (-2 * REACH..=2 * REACH).map(|i| f64::from(i) / 2.0);
+    let answer = |point: [f64; 2]| {
+        let query = Query {
+            corners,
+            point: point.map(|x| S::from_f64(x * unit)),
+        };
+        Answer {
+            point,
+            truth: inside(&query),
+            found: [shipped(query), thesis(query)],
+        }
+    };
+    steps()
+        .flat_map(|y| steps().map(move |x| answer([x, y])))
+        .collect()
 }
 
 /// The queries at a distance of the star's half width over `value`.
@@ -197,6 +238,18 @@ mod tests {
         // Edges own their lower ends: the lowest corner is a crossing of two edges at once.
         assert!(!ask([0.0, -16.0]) && !ask([0.0, 16.0]));
         assert!(ask([-16.0, 0.0]) != ask([16.0, 0.0]));
+    }
+
+    #[test]
+    fn on_a_square_of_points_only_the_thesis_errs() {
+        let answers = square::<f32>();
+        let wrong = |form: usize, found: bool| {
+            let wrong = |a: &&Answer| a.found[form] != a.truth && a.found[form] == found;
+            answers.iter().filter(wrong).count()
+        };
+        assert_eq!(answers.len(), 69 * 69);
+        assert_eq!([wrong(0, true), wrong(0, false)], [0, 0]);
+        assert!(wrong(1, true) > 0 && wrong(1, false) > 0);
     }
 
     #[test]

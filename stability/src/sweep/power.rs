@@ -4,6 +4,7 @@ use crate::exact::{exact, near};
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted};
 use crate::random::Random;
+use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
 use micromath::F32Ext;
 use octray_core::scalar::Exponent;
@@ -38,6 +39,10 @@ impl Sweep for Power {
             ..Bounds::NONE
         },
     };
+
+    fn setting(_: f64) -> Setting {
+        Setting::pixel(1.0)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];

@@ -4,6 +4,7 @@ use crate::exact::{Exact, exact, near};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
+use crate::setting::Setting;
 use crate::stage::{cuboid, hit};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
@@ -39,6 +40,10 @@ impl Sweep for Slab {
             ..Bounds::NONE
         },
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::pixel(1.0 / value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 2];
@@ -87,7 +92,7 @@ fn along<S: Number>(block: &Cuboid<S>, case: usize, random: &mut Random) -> Ray<
 }
 
 /// The first crossing ahead of the closed box.
-fn truth<S: Number>(block: &Cuboid<S>, ray: &Ray<S>) -> Option<Exact> {
+pub(super) fn truth<S: Number>(block: &Cuboid<S>, ray: &Ray<S>) -> Option<Exact> {
     let (origin, direction) = (exactly(ray.origin), exactly(ray.direction));
     let (low, high) = (exactly(block.low), exactly(block.high));
     let (mut entry, mut exit) = (exact(f64::MIN), exact(f64::MAX));

@@ -4,6 +4,7 @@ use crate::exact::{Exact, Exact3, add, angle, dot, exact, near, root, sub, times
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
+use crate::setting::Setting;
 use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
@@ -43,6 +44,10 @@ impl Sweep for Sphere {
             ..Bounds::NONE
         },
     };
+
+    fn setting(value: f64) -> Setting {
+        Setting::sphere(1.0, value)
+    }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
         let mut tallies = vec![Tally::default(); 3];

@@ -1,0 +1,389 @@
+//! How a picture is packed for threads: the shape of packets and the policy that deals them, where the user
+//! leaves that open.
+//!
+//! A coarse probe tells what parts of the picture cost; the simulation ([`crate::simulate`]) tells how long the
+//! threads would take with each packing. Both together take about half a percent of the time that the threads
+//! take to trace, and nothing depends on time measured: a scene is packed alike each time.
+
+use crate::cost::{CostMap, dearest_first};
+use crate::deal::{Deal, Policy};
+use crate::engine::Engine;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::WorkOptions;
+use crate::packets::Shape;
+use crate::simulate::{Machine, simulate};
+use octray_core::packet::Region;
+use serde::Serialize;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::time::Instant;
+
+/// Instructions that each packet costs its thread beyond its pixels: those that Callgrind counts of a picture
+/// in packets of one pixel beyond the same in whole rows.
+pub const PER_PACKET: f64 = 1100.0;
+
+/// Instructions that a thread could do while a packet that is handed out to it keeps the others from theirs:
+/// 11 ns, as two threads took that did nothing but draw packets.
+pub const HAND_OUT: f64 = 100.0;
+
+/// The time for probing, and the time for simulating, as shares of the time for tracing on all threads.
+const SHARE: f64 = 0.002_5;
+
+/// Instructions to simulate one packet.
+const EVENT: f64 = 300.0;
+
+/// A packing that wastes no more than this share of the time is not worth improving.
+const WASTE: f64 = 0.002;
+
+/// What is taken if nothing is to be chosen.
+pub const FIXED: (Policy, Shape) = (
+    Policy::Dynamic,
+    Shape::strip(const { NonZeroU32::new(4).unwrap() }),
+);
+
+/// The policies to choose from; among equally good ones the first, which relies the least on estimates.
+const POLICIES: [Policy; 6] = [
+    Policy::Dynamic,
+    Policy::Guided,
+    Policy::WorkStealing,
+    Policy::CostOrdered,
+    Policy::Static,
+    Policy::Prescheduled,
+];
+
+/// Sides of tiles to choose from. Among equally good shapes the first is taken, and rays that are near each
+/// other find the same objects: with 16 x 16 pixels the figures take the fewest instructions.
+const TILES: [u32; 4] = [16, 8, 32, 64];
+
+/// Rows of strips to choose from, after tiles.
+const STRIPS: [u32; 5] = [1, 2, 4, 8, 16];
+
+/// How a picture is packed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Packing {
+    /// Which thread gets which packet.
+    pub policy: Policy,
+    /// How large packets are.
+    pub shape: Shape,
+    /// The packets from the dearest to the cheapest if the policy asks for it, else nothing.
+    pub order: Vec<u32>,
+    /// Why, if it was chosen.
+    pub forecast: Option<Forecast>,
+}
+
+/// Why a packing was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Forecast {
+    /// Pixels that were traced to find out what parts of the picture cost.
+    pub probed: u64,
+    /// Packings that were simulated.
+    pub simulated: usize,
+    /// Seconds for both.
+    pub seconds: f64,
+    /// The speed-up that the simulation expects.
+    pub speed_up: f64,
+    /// The speed-up that it expects of strips of four rows, dealt dynamically.
+    pub fixed: f64,
+}
+
+/// Packs a region of the picture for as many threads as there are, in the way that is asked for where it is.
+///
+/// # Errors
+/// [`Error::Interrupted`] if it was.
+pub fn choose(
+    engine: &dyn Engine,
+    region: &Region,
+    work: &WorkOptions,
+    interrupt: &Interrupt,
+) -> Result<Packing, Error> {
+    let (policy, shape) = (
+        work.policy.unwrap_or(FIXED.0),
+        work.packet.unwrap_or(FIXED.1),
+    );
+    let open = work.policy.is_none() || work.packet.is_none();
+    if work.threads.get() == 1 || !(open || policy == Policy::CostOrdered) {
+        return Ok(Packing {
+            policy,
+            shape,
+            order: Vec::new(),
+            forecast: None,
+        });
+    }
+    let begin = Instant::now();
+    let block = engine.built().block;
+    let apart = (work.threads.get() as f64 / SHARE).sqrt().ceil() as u32;
+    let cell = NonZeroU32::new(apart * block).unwrap_or(NonZeroU32::MIN);
+    let map = CostMap::probe(engine, cell, interrupt)?;
+    let search = Search {
+        map: &map,
+        region,
+        threads: work.threads,
+        serial: map.cost(region) / f64::from(apart).powi(2),
+    };
+    let candidates = match open {
+        true => candidates(work, block),
+        false => Vec::new(),
+    };
+    let (best, simulated) = search.best(&candidates);
+    let (policy, shape) = best.map_or((policy, shape), |best| (best.policy, best.shape));
+    let order = match policy {
+        Policy::CostOrdered => dearest_first(&search.costs(shape)),
+        _ => Vec::new(),
+    };
+    Ok(Packing {
+        policy,
+        shape,
+        order,
+        forecast: best.map(|best| Forecast {
+            probed: map.cells() as u64,
+            simulated,
+            speed_up: best.speed_up,
+            fixed: Search {
+                serial: 0.0,
+                ..search
+            }
+            .speed_up(FIXED.0, FIXED.1),
+            seconds: begin.elapsed().as_secs_f64(),
+        }),
+    })
+}
+
+/// All ways to pack that the user leaves open, those that are to be preferred first.
+fn candidates(work: &WorkOptions, block: u32) -> Vec<(Policy, Shape)> {
+    let sides = |all: &'static [u32]| {
+        let whole = all.iter().filter(move |side| **side >= block);
+        whole.filter_map(|side| NonZeroU32::new(*side))
+    };
+    let tile = |side| Shape {
+        rows: side,
+        columns: Some(side),
+    };
+    let shapes = match work.packet {
+        Some(shape) => vec![shape],
+        None => (sides(&TILES).map(tile))
+            .chain(sides(&STRIPS).map(Shape::strip))
+            .collect(),
+    };
+    let policies = match work.policy {
+        Some(policy) => vec![policy],
+        None => POLICIES.to_vec(),
+    };
+    let all = |policy| shapes.iter().map(move |shape| (policy, *shape));
+    policies.into_iter().flat_map(all).collect()
+}
+
+/// A packing, and the speed-up expected of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Candidate {
+    policy: Policy,
+    shape: Shape,
+    speed_up: f64,
+}
+
+/// A picture to be packed.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    map: &'a CostMap,
+    region: &'a Region,
+    threads: NonZeroUsize,
+    /// Instructions before the threads begin.
+    serial: f64,
+}
+
+impl Search<'_> {
+    /// The best candidate, and how many were tried: until one leaves nothing to be won, or trying has taken as
+    /// long as it may. The first one is tried in any case.
+    fn best(&self, candidates: &[(Policy, Shape)]) -> (Option<Candidate>, usize) {
+        let threads = self.threads.get() as f64;
+        let mut left = self.map.cost(self.region) / threads * SHARE / EVENT;
+        let (mut best, mut tried) = (None, 0);
+        for &(policy, shape) in candidates {
+            let packets = shape.cut(self.region).count();
+            left -= packets as f64;
+            if left < 0.0 && tried > 0 {
+                // A coarser one may still be worth its time.
+                left += packets as f64;
+                continue;
+            }
+            let speed_up = self.speed_up(policy, shape);
+            tried += 1;
+            let better = |best: Candidate| speed_up > best.speed_up * (1.0 + WASTE / 2.0);
+            if best.is_none_or(better) {
+                best = Some(Candidate {
+                    policy,
+                    shape,
+                    speed_up,
+                });
+            }
+            if speed_up >= threads * (1.0 - WASTE) {
+                break;
+            }
+        }
+        (best, tried)
+    }
+
+    /// What packets of a shape are estimated to cost.
+    fn costs(&self, shape: Shape) -> Vec<f64> {
+        let parts = shape.cut(self.region);
+        parts.map(|part| self.map.cost(&part)).collect()
+    }
+
+    /// The speed-up over one thread that does without packets, if the estimates are as wrong as they probably
+    /// are: what is dealt by them is then not what it costs.
+    fn speed_up(&self, policy: Policy, shape: Shape) -> f64 {
+        let order = match policy {
+            Policy::CostOrdered => dearest_first(&self.costs(shape)),
+            _ => Vec::new(),
+        };
+        let wrong = |(packet, part): (u64, Region)| {
+            let cost = self.map.cost(&part) + coin(packet) * self.map.error(&part);
+            cost.max(0.0)
+        };
+        let mut costs: Vec<_> = (0..).zip(shape.cut(self.region)).map(wrong).collect();
+        let alone: f64 = costs.iter().sum();
+        costs.iter_mut().for_each(|cost| *cost += PER_PACKET);
+        let machine = Machine {
+            hand_out: HAND_OUT,
+            serial: self.serial,
+            ..Machine::default()
+        };
+        let deal = Deal::new(policy, costs.len(), self.threads, order);
+        match simulate(&costs, &deal, &machine).time {
+            time if time > 0.0 => alone / time,
+            _ => 1.0,
+        }
+    }
+}
+
+/// 1 or −1, by the flip of a coin that falls alike each time (SplitMix64).
+fn coin(packet: u64) -> f64 {
+    let mut bits = (packet + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    match (bits ^ bits >> 31) & 1 {
+        0 => 1.0,
+        _ => -1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+    use octray_scenes::model::Scene;
+
+    /// A ball in a corner of a picture of 128 x 128 pixels.
+    const BALL: &str = "v 0 0 -300 resolution 128 128 l 0 0 -300 1
+        f 1 1 1 1 1 1 0 0 0 0 0 0 s -30 30 40 30 p 4 -60 -60 60 60 -60 60 60 60 60 -60 60 60";
+
+    fn scene() -> Scene {
+        octray_scenes::parse::parse(BALL).unwrap()
+    }
+
+    fn engine(scene: &Scene, pixels_per_ray: PixelsPerRay) -> Box<dyn Engine> {
+        let tree = TreeOptions {
+            kind: Tree::Tight,
+            depth: None,
+            leaf_size: None,
+            arena: None,
+            link: Link::Shape,
+        };
+        let view = ViewOptions {
+            size: None,
+            pixels_per_ray,
+            samples: 1,
+            max_depth: 8,
+            cut_off: 0.0,
+        };
+        crate::engine::build(scene, Arith::F32, &tree, &view).unwrap()
+    }
+
+    fn packing(work: &WorkOptions) -> Packing {
+        let engine = engine(&scene(), PixelsPerRay::One);
+        let region = engine.built().active.clone();
+        choose(&*engine, &region, work, &Interrupt::new()).unwrap()
+    }
+
+    fn work(threads: usize, policy: Option<Policy>, rows: Option<u32>) -> WorkOptions {
+        WorkOptions {
+            threads: NonZeroUsize::new(threads).unwrap(),
+            policy,
+            packet: rows.and_then(NonZeroU32::new).map(Shape::strip),
+            pin: false,
+        }
+    }
+
+    #[test]
+    fn what_is_asked_for_is_taken() {
+        for policy in [Policy::Static, Policy::CostOrdered] {
+            let packing = packing(&work(2, Some(policy), Some(3)));
+            assert_eq!(packing.policy, policy);
+            assert_eq!(packing.shape.to_string(), "3 rows");
+            assert_eq!(packing.forecast, None);
+            let ordered = packing.order.len();
+            assert_eq!(ordered > 0, policy == Policy::CostOrdered);
+        }
+        let only_policy = packing(&work(2, Some(Policy::Static), None));
+        assert_eq!(only_policy.policy, Policy::Static);
+        assert!(only_policy.forecast.is_some());
+        let only_shape = packing(&work(2, None, Some(3)));
+        assert_eq!(only_shape.shape.to_string(), "3 rows");
+        assert!(only_shape.forecast.is_some());
+    }
+
+    #[test]
+    fn one_thread_needs_no_choice() {
+        let packing = packing(&work(1, None, None));
+        assert_eq!((packing.policy, packing.shape), FIXED);
+        assert_eq!(packing.forecast, None);
+    }
+
+    #[test]
+    fn the_choice_is_better_than_fixed_strips_and_within_the_bounds() {
+        for threads in [2, 3, 16, 100] {
+            let work = work(threads, None, None);
+            let packing = packing(&work);
+            let forecast = packing.forecast.unwrap();
+            assert!(forecast.speed_up <= threads as f64, "{forecast:?}");
+            // On two threads the probe may cost as much as it wins.
+            assert!(forecast.speed_up > forecast.fixed * 0.99, "{forecast:?}");
+            if threads > 32 {
+                // There are no more than 32 strips.
+                assert!(forecast.speed_up > 1.3 * forecast.fixed, "{forecast:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_is_packed_alike_each_time() {
+        let all = || {
+            let packing = packing(&work(7, None, None));
+            (
+                packing.policy,
+                packing.shape,
+                packing.forecast.map(|f| f.speed_up),
+            )
+        };
+        assert_eq!(all(), all());
+    }
+
+    #[test]
+    fn blocks_that_one_ray_colours_are_not_cut() {
+        for (_, shape) in candidates(&work(2, None, None), 2) {
+            let sides = [Some(shape.rows), shape.columns];
+            assert!(
+                sides.iter().flatten().all(|side| side.get() % 2 == 0),
+                "{shape}"
+            );
+        }
+    }
+
+    #[test]
+    fn nothing_to_see_is_packed_all_the_same() {
+        let scene = octray_scenes::parse::parse("v 0 0 -9 resolution 8 8").unwrap();
+        let engine = engine(&scene, PixelsPerRay::Four);
+        let region = engine.built().active.clone();
+        let packing = choose(&*engine, &region, &work(4, None, None), &Interrupt::new()).unwrap();
+        assert_eq!(packing.forecast.map(|f| f.speed_up), Some(1.0));
+    }
+}

@@ -1,0 +1,44 @@
+//! The limits of all methods in one table.
+
+use super::table::{admitted, limit};
+use comfy_table::{CellAlignment, Table, presets};
+use octray_stability::number::ARITHMETICS;
+use octray_stability::survey::Survey;
+use octray_stability::tally::State;
+
+/// A line for each method and form: to which value it holds, and beyond which it breaks, in some
+/// arithmetics by their numbers; for what octray ships also to which value it is admitted.
+pub(super) fn of(survey: &Survey, arithmetics: &[usize]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN);
+    let mut head = vec!["method".into(), "swept".into(), "form".into()];
+    for &a in arithmetics {
+        head.push(format!("{} holds to", ARITHMETICS[a]));
+        head.push("breaks beyond".into());
+        head.push("admitted to".into());
+    }
+    table.set_header(head);
+    for outcome in &survey.outcomes {
+        let about = &outcome.about;
+        for (f, form) in about.forms.iter().enumerate() {
+            let [name, axis] = match f {
+                0 => [about.name, about.axis],
+                _ => [""; 2],
+            };
+            let mut line = vec![name.into(), axis.into(), form.name.into()];
+            for &a in arithmetics {
+                line.push(limit(outcome, f, a, State::Holds));
+                line.push(limit(outcome, f, a, State::Degrades));
+                line.push(match f {
+                    0 => admitted(outcome, a),
+                    _ => String::new(),
+                });
+            }
+            table.add_row(line);
+        }
+    }
+    for column in table.column_iter_mut().skip(3) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.trim_fmt() + "\n"
+}
