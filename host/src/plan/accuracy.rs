@@ -67,9 +67,9 @@ pub struct Accuracy {
     pub coarse: (Events, f64),
     /// Pixels that one ray colours.
     pub pixels_per_ray: u32,
-    /// The largest number that the scene can lead to, and the bits before the point that it takes.
+    /// The largest number that the scene can lead to.
     pub largest: Bound,
-    /// See there.
+    /// Bits before the point that it takes.
     pub integer_bits: u32,
     /// Every arithmetic that was tried, the finest first.
     pub tried: Vec<Tried>,
