@@ -4,6 +4,7 @@
 //! here, before any work.
 
 mod bake;
+mod chart;
 mod check;
 mod diff;
 mod generate;
@@ -12,9 +13,11 @@ mod plan;
 mod render;
 mod schedule;
 mod stability;
+mod tables;
 pub mod value;
 
 pub use bake::BakeArgs;
+pub use chart::ChartArgs;
 pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
@@ -23,6 +26,7 @@ pub use plan::PlanArgs;
 pub use render::RenderArgs;
 pub use schedule::ScheduleArgs;
 pub use stability::StabilityArgs;
+pub use tables::TablesArgs;
 
 use clap::{Parser, Subcommand};
 
@@ -54,8 +58,12 @@ pub enum Command {
     Measure(MeasureArgs),
     /// Find the least a scene needs on a small target, and predict what it costs
     Plan(PlanArgs),
+    /// Chart what accuracy costs, over arithmetics and settings, and choose
+    Chart(ChartArgs),
     /// Show where methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
+    /// Reprint the tables of the thesis from our own runs
+    Tables(TablesArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 bad usage, 130 interrupted.";

@@ -41,8 +41,21 @@ pub trait Worker: Send {
     /// by pixel costs what all of them at once do.
     fn probe(&mut self, region: &Region);
 
+    /// What the camera's rays through the blocks that begin in a row meet first, from left to right; the
+    /// samples of a block follow each other.
+    fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>>;
+
     /// What was counted so far.
     fn counters(&self) -> &Counters;
+}
+
+/// What a ray of the camera meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstHit {
+    /// The object's place in the scene file, counted from 0.
+    pub object: u32,
+    /// How far away, in units of the scene file.
+    pub distance: f64,
 }
 
 /// What there is to know of a scene that was made ready.
@@ -325,13 +338,24 @@ struct Tracing<'a, S: Quantize, T: Grown<S>> {
     ready: &'a Ready<S, T>,
     tree: T::View<'a>,
     rays: Vec<Pending<S>>,
-    stack: <T::View<'a> as Accelerator<S>>::Stack,
+    stack: Stack<'a, S, T>,
     blockers: Vec<Option<ObjectRef>>,
     counters: Counters,
 }
 
-impl<S: Quantize, T: Grown<S>> Tracing<'_, S, T> {
-    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
+/// What the walk through a tree needs.
+type Stack<'a, S, T> = <<T as Grown<S>>::View<'a> as Accelerator<S>>::Stack;
+
+impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
+    /// Does something with what it takes to trace a ray.
+    fn with<R>(
+        &mut self,
+        work: impl FnOnce(
+            &Tracer<'_, S, T::View<'a>>,
+            &mut Workspace<'_, S, Stack<'a, S, T>>,
+            &mut Counters,
+        ) -> R,
+    ) -> R {
         let scene = self.ready.prepared.scene.scene();
         let tracer = Tracer {
             scene: &scene,
@@ -344,8 +368,14 @@ impl<S: Quantize, T: Grown<S>> Tracing<'_, S, T> {
             stack: &mut self.stack,
             blockers: &mut self.blockers,
         };
+        work(&tracer, &mut workspace, &mut self.counters)
+    }
+
+    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
         let frame = &self.ready.prepared.frame;
-        frame.render_region(region, &tracer, &mut workspace, &mut self.counters, put);
+        self.with(|tracer, workspace, counters| {
+            frame.render_region(region, tracer, workspace, counters, put);
+        });
     }
 }
 
@@ -375,6 +405,31 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
 
     fn probe(&mut self, region: &Region) {
         self.render(region, |_, _, _| {});
+    }
+
+    fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>> {
+        let ready = self.ready;
+        let (frame, unit) = (
+            &ready.prepared.frame,
+            (-f64::from(ready.built.scale)).exp2(),
+        );
+        let samples = frame.parts().samples;
+        let columns = (0..ready.built.size.0).step_by(frame.block() as usize);
+        let place = |column| {
+            let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
+            inside.map(move |(x, y)| frame.place(column, row, x, y))
+        };
+        self.with(|tracer, workspace, counters| {
+            let hit = |(x, y)| {
+                let ray = frame.camera().row(y).ray(x);
+                let hit = tracer.nearest(&ray, workspace, counters)?;
+                Some(FirstHit {
+                    object: tracer.scene.attributes_of(hit.object).id,
+                    distance: hit.t.to_f64() * unit,
+                })
+            };
+            columns.flat_map(place).map(hit).collect()
+        })
     }
 
     fn counters(&self) -> &Counters {

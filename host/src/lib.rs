@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`plan`], [`stability`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`plan`], [`stability`], [`chart`], [`tables`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
@@ -15,6 +15,7 @@
 
 pub mod bake;
 pub mod canvas;
+pub mod chart;
 pub mod check;
 pub mod cli;
 pub mod cost;
@@ -41,6 +42,7 @@ pub mod stability;
 pub mod stats;
 pub mod summary;
 pub mod sweep;
+pub mod tables;
 pub mod threads;
 pub mod trace;
 
@@ -93,7 +95,9 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
         Command::Plan(args) => plan::run(&args.job()?, interrupt),
         Command::Schedule(args) => sweep::run(&args.job(), interrupt),
+        Command::Chart(args) => chart::run(&args.job()?, interrupt),
         Command::Stability(args) => stability::run(&args.job(), interrupt),
+        Command::Tables(args) => tables::run(&args.job()?, interrupt),
     }
 }
 

@@ -39,7 +39,7 @@ use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
 /// The scenes that are measured if none is named.
-const FIGURES: [&str; 5] = [
+pub(crate) const FIGURES: [&str; 5] = [
     "scenes/figure-19.scene",
     "scenes/figure-20.scene",
     "scenes/figure-21.scene",

@@ -1,11 +1,11 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
 use crate::deal::Deal;
-use crate::engine::{self, Engine};
+use crate::engine::{self, Engine, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::Packets;
+use crate::packets::{Packet, Packets};
 use crate::packing;
 use crate::picture::Picture;
 use crate::progress::Progress;
@@ -18,6 +18,9 @@ use octray_core::scalar;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::time::Instant;
+
+/// The function that all tracing of [`trace`] happens in, as Callgrind names it.
+pub const TRACING: &str = "octray::trace::trace_packet";
 
 /// Trace what the job asks for.
 ///
@@ -104,7 +107,7 @@ pub fn render(
         },
         |worker, index| {
             if let Some(packet) = packets.take(index) {
-                worker.trace(packet);
+                trace_packet(&mut **worker, packet);
             }
         },
         || progress.step(),
@@ -124,6 +127,12 @@ pub fn render(
     };
     let saturations = scalar::saturations().wrapping_sub(probed);
     Ok((picture, counters, work, u64::from(saturations)))
+}
+
+/// What tracing comes to, without start-up and without the picture's file: [`TRACING`].
+#[inline(never)]
+fn trace_packet(worker: &mut dyn Worker, packet: Packet<'_>) {
+    worker.trace(packet);
 }
 
 fn at_least_one(count: usize) -> NonZeroUsize {

@@ -91,7 +91,7 @@ impl MeasureArgs {
         }
         let boards: Vec<&Board> = match &*self.targets {
             [] => BOARDS.iter().collect(),
-            named => once(named.iter().flatten().copied(), |a, b| a.name == b.name),
+            named => value::once(named.iter().flatten().copied(), |a, b| a.name == b.name),
         };
         if self.chart.is_some() {
             if self.chart == self.csv || self.chart == self.json {
@@ -108,7 +108,7 @@ impl MeasureArgs {
             kernels: self.kernels,
             scenes: self.scenes,
             boards,
-            ariths: once(self.arith, |a, b| a == b),
+            ariths: value::once(self.arith, |a, b| a == b),
             view: View {
                 size: self.size,
                 max_depth: self.max_depth,
@@ -124,17 +124,6 @@ impl MeasureArgs {
             chart: self.chart,
         })
     }
-}
-
-/// Each once, in the order of their first mention.
-fn once<T>(all: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
-    let mut found: Vec<T> = Vec::new();
-    for item in all {
-        if !found.iter().any(|known| same(known, &item)) {
-            found.push(item);
-        }
-    }
-    found
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ pub(super) fn doubling(text: &str) -> Result<Whole, String> {
 }
 
 /// A weight from 0 to 1, as a number or as a fraction such as `1/512`.
-pub(super) fn weight(text: &str) -> Result<f64, String> {
+pub(crate) fn weight(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.parse::<f64>().ok();
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
     number(above)
@@ -86,6 +86,17 @@ pub(super) fn share(text: &str) -> Result<Share, String> {
             .map(Share::Percent)
             .ok_or_else(|| expected.into()),
     }
+}
+
+/// Each once, in the order of their first mention.
+pub(super) fn once<T>(all: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
+    let mut found: Vec<T> = Vec::new();
+    for item in all {
+        if !found.iter().any(|known| same(known, &item)) {
+            found.push(item);
+        }
+    }
+    found
 }
 
 #[cfg(test)]

@@ -22,9 +22,12 @@ pub const SEARCH: &str = "nearest:any_hit:blocks";
 /// A scene that has been read.
 #[derive(Debug)]
 pub struct Named {
-    name: String,
-    path: PathBuf,
-    scene: Scene,
+    /// Its name: the file's, without folder and extension.
+    pub name: String,
+    /// The file, from the root.
+    pub path: PathBuf,
+    /// What is in it.
+    pub scene: Scene,
 }
 
 impl Named {

@@ -1,0 +1,188 @@
+//! How far off a picture is: from f64 of the same settings, and from what all settings converge to.
+
+use super::ChartJob;
+use super::setting::Setting;
+use crate::engine::{self, Engine, FirstHit};
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::{Arith, DEEPEST, PixelsPerRay, RenderJob, StatsFormat, Tree, WorkOptions};
+use crate::metric::Difference;
+use crate::picture::{Format, Picture, RasDepth, Target};
+use crate::progress::Progress;
+use crate::trace::trace;
+use octray_scenes::model::Scene;
+use std::path::PathBuf;
+
+/// How far off a picture is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accuracy {
+    /// The number format that was used, e.g. `i16f16`.
+    pub format: String,
+    /// From f64 of the same settings: the error of the arithmetic alone.
+    pub same: Difference,
+    /// From the converged picture: of arithmetic and settings together.
+    pub converged: Difference,
+    /// What the camera's rays meet first, beside f64 of the same settings.
+    pub sight: Sight,
+}
+
+/// What the camera's rays meet first, in one arithmetic beside another.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sight {
+    /// The share of pixels in which a ray meets another object first, or the background instead, 0 to 1.
+    pub other: f64,
+    /// The largest relative difference of distances, where the object is the same.
+    pub depth: f64,
+}
+
+/// The PSNR of a picture in dB; equal pictures count as if one channel of one pixel differed by one level,
+/// which is the most that is finite.
+pub fn decibels(difference: &Difference) -> f64 {
+    let least = Difference {
+        squares: 1,
+        ..*difference
+    };
+    difference.psnr().min(least.psnr())
+}
+
+/// Judges pictures of one scene, and keeps what it judges them by.
+pub struct Judge<'a> {
+    scene: &'a Scene,
+    size: (u32, u32),
+    interrupt: &'a Interrupt,
+    converged: Picture,
+    exact: Vec<Exact>,
+}
+
+/// A picture in f64.
+struct Exact {
+    setting: Setting,
+    picture: Picture,
+    engine: Box<dyn Engine>,
+}
+
+impl<'a> Judge<'a> {
+    /// Renders the converged picture: f64, the most bounces there can be, no cut-off, many rays per pixel.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`].
+    pub fn new(scene: &'a Scene, job: &ChartJob, interrupt: &'a Interrupt) -> Result<Self, Error> {
+        let converged = Setting {
+            arith: Arith::F64,
+            tree: Tree::Tight,
+            max_depth: DEEPEST,
+            cut_off: 0.0,
+            pixels_per_ray: PixelsPerRay::One,
+            samples: job.converged_samples,
+        };
+        Ok(Self {
+            scene,
+            size: job.size,
+            interrupt,
+            converged: render(scene, &converged, job.size, interrupt)?.0,
+            exact: Vec::new(),
+        })
+    }
+
+    /// How far off the picture with these settings is; in words if the scene does not fit the arithmetic or
+    /// the tree.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], or if f64 itself fails.
+    pub fn accuracy(&mut self, setting: &Setting) -> Result<Result<Accuracy, String>, Error> {
+        let (picture, format) = match render(self.scene, setting, self.size, self.interrupt) {
+            Err(Error::Failed(why)) => return Ok(Err(why)),
+            other => other?,
+        };
+        let engine = build(self.scene, setting, self.size)?;
+        let converged = Difference::between(&self.converged, &picture)?;
+        let exact = self.exact(setting.in_f64())?;
+        Ok(Ok(Accuracy {
+            format,
+            same: Difference::between(&exact.picture, &picture)?,
+            converged,
+            sight: sight(&*exact.engine, &*engine, setting.samples),
+        }))
+    }
+
+    /// The picture with these settings, rendered if it has not been yet.
+    fn exact(&mut self, setting: Setting) -> Result<&Exact, Error> {
+        let known = self.exact.iter().position(|exact| exact.setting == setting);
+        let index = match known {
+            Some(index) => index,
+            None => {
+                self.exact.push(Exact {
+                    setting,
+                    picture: render(self.scene, &setting, self.size, self.interrupt)?.0,
+                    engine: build(self.scene, &setting, self.size)?,
+                });
+                self.exact.len() - 1
+            }
+        };
+        Ok(&self.exact[index])
+    }
+}
+
+/// The scene made ready to be traced.
+pub(super) fn build(
+    scene: &Scene,
+    setting: &Setting,
+    size: (u32, u32),
+) -> Result<Box<dyn Engine>, Error> {
+    let (tree, view) = (setting.tree_options(), setting.view_options(size));
+    engine::build(scene, setting.arith, &tree, &view)
+}
+
+/// The picture, and the number format that was used.
+fn render(
+    scene: &Scene,
+    setting: &Setting,
+    size: (u32, u32),
+    interrupt: &Interrupt,
+) -> Result<(Picture, String), Error> {
+    let job = RenderJob {
+        scene: PathBuf::new(),
+        output: Target {
+            path: PathBuf::new(),
+            format: Format::Png,
+        },
+        ras_depth: RasDepth::Eight,
+        arith: setting.arith,
+        tree: setting.tree_options(),
+        view: setting.view_options(size),
+        work: WorkOptions::default(),
+        stats: StatsFormat::None,
+    };
+    let traced = trace(scene, &job, &Progress::hidden(), interrupt)?;
+    Ok((traced.picture, traced.format))
+}
+
+/// What the rays of two pictures with the same settings meet first.
+fn sight(exact: &dyn Engine, engine: &dyn Engine, samples: u32) -> Sight {
+    let built = engine.built();
+    let (mut truth, mut seen) = (exact.worker(), engine.worker());
+    let (mut blocks, mut others, mut depth) = (0_u64, 0_u64, 0.0_f64);
+    let per_block = (samples * samples) as usize;
+    for row in (0..built.size.1).step_by(built.block as usize) {
+        let (truth, seen) = (truth.first_hits(row), seen.first_hits(row));
+        let pairs = truth.chunks(per_block).zip(seen.chunks(per_block));
+        for (truth, seen) in pairs {
+            blocks += 1;
+            let differs = |(a, b): (&Option<FirstHit>, &Option<FirstHit>)| {
+                a.map(|hit| hit.object) != b.map(|hit| hit.object)
+            };
+            others += u64::from(truth.iter().zip(seen).any(differs));
+            for pair in truth.iter().zip(seen) {
+                if let (Some(truth), Some(seen)) = pair
+                    && truth.object == seen.object
+                {
+                    depth = depth.max((seen.distance / truth.distance - 1.0).abs());
+                }
+            }
+        }
+    }
+    Sight {
+        other: others as f64 / blocks as f64,
+        depth,
+    }
+}

@@ -1,0 +1,185 @@
+//! Where scenes are traced for the tables, each variant once.
+
+use super::subject::{Subject, Trial};
+use crate::cost::{self, CostMap};
+use crate::deal::Policy;
+use crate::engine;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::{Arith, Link, RenderJob, StatsFormat, TreeOptions, ViewOptions, WorkOptions};
+use crate::packets::Shape;
+use crate::picture::{Format, RasDepth, Target};
+use crate::progress::Progress;
+use crate::render::Traced;
+use crate::trace::trace;
+use octray_core::observe::Counters;
+use octray_core::packet::Region;
+use std::cell::RefCell;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
+
+/// Traces, and remembers what came out.
+#[derive(Debug)]
+pub struct Lab<'a> {
+    /// Columns and rows; the scenes' own if `None`.
+    pub size: Option<(u32, u32)>,
+    /// Whether time is taken, for which one thread works.
+    pub time: bool,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+    seen: RefCell<Vec<(Trial, Tally)>>,
+}
+
+/// What was counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tally {
+    /// Pixels of the picture.
+    pub pixels: u64,
+    /// Rays by kind.
+    pub rays: crate::stats::Rays,
+    /// Voxels that rays went through.
+    pub steps: u64,
+    /// Surfaces that rays were tested against.
+    pub tests: u64,
+    /// Instructions, by [`cost::cost`].
+    pub instructions: f64,
+    /// Time to trace, in seconds.
+    pub seconds: f64,
+}
+
+impl<'a> Lab<'a> {
+    /// Nothing is traced yet.
+    pub fn new(size: Option<(u32, u32)>, time: bool, interrupt: &'a Interrupt) -> Self {
+        Self {
+            size,
+            time,
+            interrupt,
+            seen: RefCell::default(),
+        }
+    }
+
+    /// What tracing a scene takes, in f32.
+    ///
+    /// # Errors
+    /// As [`trace`].
+    pub fn tally(&self, trial: Trial) -> Result<Tally, Error> {
+        let known = |seen: &Vec<(Trial, Tally)>| {
+            let found = seen.iter().find(|(other, _)| *other == trial);
+            found.map(|(_, tally)| *tally)
+        };
+        if let Some(tally) = known(&self.seen.borrow()) {
+            return Ok(tally);
+        }
+        let mut work = WorkOptions {
+            policy: Some(Policy::Dynamic),
+            packet: Some(Shape::strip(const { NonZeroU32::new(4).unwrap() })),
+            ..WorkOptions::default()
+        };
+        if self.time {
+            work.threads = NonZeroUsize::MIN;
+        }
+        let job = RenderJob {
+            scene: PathBuf::new(),
+            output: Target {
+                path: PathBuf::new(),
+                format: Format::Png,
+            },
+            ras_depth: RasDepth::Eight,
+            arith: Arith::F32,
+            tree: tree(&trial),
+            view: self.view(&trial),
+            work,
+            stats: StatsFormat::None,
+        };
+        let traced = trace(&trial.scene()?, &job, &Progress::hidden(), self.interrupt)?;
+        let tally = Tally::of(&traced);
+        self.seen.borrow_mut().push((trial, tally));
+        Ok(tally)
+    }
+
+    /// What each pixel of a scene costs, and the rows that cost anything.
+    ///
+    /// # Errors
+    /// As [`engine::build`] and [`CostMap::probe`].
+    pub fn map(&self, subject: Subject) -> Result<(CostMap, Region), Error> {
+        let trial = Trial::of(subject);
+        let engine = engine::build(
+            &trial.scene()?,
+            Arith::F32,
+            &tree(&trial),
+            &self.view(&trial),
+        )?;
+        let map = CostMap::probe(&*engine, NonZeroU32::MIN, self.interrupt)?;
+        let region = Region {
+            columns: 0..engine.built().size.0,
+            rows: engine.built().active.rows.clone(),
+        };
+        Ok((map, region))
+    }
+
+    /// The defaults of `octray render`.
+    fn view(&self, trial: &Trial) -> ViewOptions {
+        ViewOptions {
+            size: self.size.map(|size| trial.resized(size)),
+            pixels_per_ray: trial.pixels_per_ray,
+            samples: 1,
+            max_depth: 8,
+            cut_off: 1.0 / 512.0,
+        }
+    }
+}
+
+fn tree(trial: &Trial) -> TreeOptions {
+    TreeOptions {
+        kind: trial.tree,
+        depth: None,
+        leaf_size: None,
+        arena: None,
+        link: Link::Shape,
+    }
+}
+
+impl Tally {
+    fn of(traced: &Traced) -> Self {
+        let rays = traced.rays;
+        let counters = Counters {
+            rays: [rays.primary, rays.shadow, rays.reflected, rays.transmitted],
+            blocked: rays.blocked,
+            steps: traced.steps,
+            tests: traced.tests,
+            ..Counters::default()
+        };
+        Self {
+            pixels: traced.picture.levels().len() as u64,
+            rays,
+            steps: traced.steps,
+            tests: traced.tests,
+            instructions: cost::cost(&counters),
+            seconds: traced.render.as_secs_f64(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::subject::FIGURES;
+    use super::*;
+
+    #[test]
+    fn the_cost_of_a_trial_is_that_of_its_map() {
+        let interrupt = Interrupt::new();
+        let lab = Lab::new(Some((48, 32)), false, &interrupt);
+        let tally = lab.tally(Trial::of(FIGURES[2])).unwrap();
+        let (map, _) = lab.map(FIGURES[2]).unwrap();
+        // What blocked a light last is forgotten between packets, so a few tests differ: 2 % in so small a
+        // picture.
+        assert!((map.total() / tally.instructions - 1.0).abs() < 0.03);
+        assert_eq!(tally.pixels, 48 * 32);
+        let larger = Trial {
+            larger: true,
+            ..Trial::of(FIGURES[2])
+        };
+        assert_eq!(lab.tally(larger).unwrap().pixels, 60 * 40);
+        assert_eq!(lab.seen.borrow().len(), 2);
+    }
+}
