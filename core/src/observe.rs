@@ -58,8 +58,8 @@ pub struct Counters {
     pub deepest: u64,
     /// The same steps and tests in detail: of rays that look for the closest hit, and of shadow rays.
     pub searches: [Searches; 2],
-    /// Which of the two is going on.
-    search: usize,
+    /// Which of the two is going on, 0 or 1.
+    pub search: usize,
 }
 
 /// What searches did.
