@@ -1,7 +1,8 @@
 //! Tells what stable compilers do not say in `target_feature`, by the target's name: whether a
 //! RISC-V target has the F extension (`scalar::root`), whether an Arm target lacks a long
 //! multiplication (`scalar::multiply`), whether leading zeros are to be counted without an
-//! instruction (`scalar::zeros`), and whether floats are emulated (`scalar::whole`).
+//! instruction (`scalar::zeros`), and whether floats are emulated (`scalar::whole`,
+//! `shape`).
 
 use std::env;
 

@@ -7,7 +7,7 @@
 //! | `OCTRAY_SIZE` | columns x rows | `160x120` |
 //! | `OCTRAY_TREE` | `packed`, `device` (built on the board), `none`, or `auto`: `packed` where it pays | `auto` |
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
-//! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 2 |
+//! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
 //! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, which says all of the above but the scene | none |
 //! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 0 |
@@ -90,13 +90,14 @@ fn baked() -> Result<String, String> {
         .and_then(|(w, h)| Some((w.parse::<u16>().ok()?, h.parse::<u16>().ok()?)))
         .filter(|(w, h)| *w > 0 && *h > 0)
         .ok_or_else(|| format!("OCTRAY_SIZE={size}: expected columns x rows such as 160x120"))?;
+    let test = Test::of(&variable("OCTRAY_ARITH", "auto"));
     let options = octree::Options {
         depth: 24,
-        leaf_size: number("OCTRAY_LEAF_SIZE", "2")?,
+        leaf_size: number("OCTRAY_LEAF_SIZE", test.leaf_size())?,
     };
     let arith = variable("OCTRAY_ARITH", "auto");
     let tree = match &*variable("OCTRAY_TREE", "auto") {
-        "auto" if !tree_pays(scene.objects.len(), &arith) => Tree::None,
+        "auto" if scene.objects.len() < test.least_objects() => Tree::None,
         "packed" | "auto" => Tree::Packed(options),
         "device" => {
             println!("cargo::rustc-cfg=octray_device_tree");
@@ -137,16 +138,43 @@ fn read_plan(path: &Path) -> Result<Plan, String> {
         .map_err(|error: PlanError| at(error.to_string()))
 }
 
-/// Whether walking a tree costs less than trying every object: for fewer of them where a test is
-/// made of emulated floats, or of long products that the core does not have. Measured.
-fn tree_pays(objects: usize, arith: &str) -> bool {
-    let target = env::var("TARGET").unwrap_or_default();
-    let has_floats = target.ends_with("hf") || target.starts_with("riscv32imafc");
-    let is_float = arith.starts_with('f') || arith.starts_with("approx");
-    objects
-        >= match (is_float, has_floats) {
-            (true, false) => 3,
-            _ if target.starts_with("thumbv6m") => 5,
-            _ => 8,
+/// What it takes to test a ray against an object, compared with a box of the tree, which is tested in
+/// short integers everywhere.
+enum Test {
+    /// A few products.
+    Cheap,
+    /// Long products on a core that has none.
+    Dear,
+    /// Emulated floats.
+    Dearest,
+}
+
+impl Test {
+    fn of(arith: &str) -> Self {
+        let target = env::var("TARGET").unwrap_or_default();
+        let has_floats = target.ends_with("hf") || target.starts_with("riscv32imafc");
+        let is_float = arith.starts_with('f') || arith.starts_with("approx");
+        match (is_float, has_floats) {
+            (true, false) => Self::Dearest,
+            _ if target.starts_with("thumbv6m") => Self::Dear,
+            _ => Self::Cheap,
         }
+    }
+
+    /// From how many objects walking a tree costs less than trying every one. Measured.
+    fn least_objects(&self) -> usize {
+        match self {
+            Self::Cheap => 8,
+            Self::Dear => 5,
+            Self::Dearest => 3,
+        }
+    }
+
+    /// Objects up to which a node of the tree is best not divided. Measured.
+    fn leaf_size(&self) -> &'static str {
+        match self {
+            Self::Cheap => "2",
+            Self::Dear | Self::Dearest => "1",
+        }
+    }
 }

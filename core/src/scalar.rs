@@ -56,6 +56,12 @@ pub trait Scalar:
     /// The product of two numbers, not rounded.
     fn product(a: Self, b: Self) -> Self::Wide;
 
+    /// The product of a number with itself, not rounded.
+    #[inline(always)]
+    fn square(self) -> Self::Wide {
+        Self::product(self, self)
+    }
+
     /// Rounds a sum of products once, to nearest.
     fn narrow(wide: Self::Wide) -> Self;
 
@@ -117,6 +123,14 @@ pub trait Scalar:
 
     /// The grey level of an intensity: ⌊255 · clamp(self, 0, 1) + ½⌋.
     fn level(self) -> u8;
+
+    /// A distance ≥ 0 with what rounding may have taken from it, where rounding is relative: which
+    /// of two planes is met first does not hang on a last bit then. In fixed point quotients are
+    /// rounded to absolute steps, and two that differ by less are equal already.
+    #[inline(always)]
+    fn or_little_more(self) -> Self {
+        self
+    }
 
     /// The sum of a pixel's light so far and one more contribution. Fixed point stops at 1, where
     /// the result is clamped anyway, so that any number of contributions ≥ 0 has room.

@@ -195,8 +195,11 @@ impl<S: Scalar, const NEEDS: Needs> Shapes<'_, S, NEEDS> {
         }
     }
 
-    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`.
-    #[inline(always)]
+    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. On cores
+    /// that emulate floats one copy is all there is: that costs nothing, since the trees' walks keep
+    /// more in registers without it.
+    #[cfg_attr(octray_soft_float, inline(never))]
+    #[cfg_attr(not(octray_soft_float), inline(always))]
     pub fn hit(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         let i = object.index();
         match object.kind() {

@@ -43,6 +43,12 @@ impl<S: Scalar> Vec3<S> {
         S::product(self.x, other.x) + S::product(self.y, other.y) + S::product(self.z, other.z)
     }
 
+    /// The dot product with itself, not rounded.
+    #[inline(always)]
+    pub fn square_wide(self) -> S::Wide {
+        self.x.square() + self.y.square() + self.z.square()
+    }
+
     /// The cross product; each component is rounded once.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {

@@ -1,8 +1,8 @@
 //! Sum and difference.
 
 use crate::bits::{
-    INFINITY, NAN, SIGN, exponent, fraction, magnitude, normalise, pack, pack_normal, propagate,
-    shift_sticky, significand,
+    INFINITY, NAN, SIGN, exponent, fraction, is_normal, magnitude, normalise, pack, pack_normal,
+    propagate, shift_sticky, significand,
 };
 
 /// Beyond this distance of the exponents the smaller number is less than half of a last place of
@@ -29,7 +29,12 @@ pub const fn sub(a: u32, b: u32) -> u32 {
 #[inline(always)]
 const fn add_ordered<const SWAPPED: bool>(a: u32, b: u32) -> u32 {
     let (large, small) = (exponent(a), exponent(b));
-    if large == 255 || small == 0 {
+    if !is_normal(large) || small == 0 {
+        // Zeros are common: of normals and directions along an axis.
+        if b << 1 == 0 && large != 255 {
+            // -0 only if both are.
+            return if a << 1 == 0 { a & b } else { a };
+        }
         return if SWAPPED {
             add_special(b, a)
         } else {
@@ -80,10 +85,6 @@ const fn add_special(a: u32, b: u32) -> u32 {
     };
     if magnitude(a) == INFINITY {
         return if a ^ b == SIGN { NAN } else { a };
-    }
-    if magnitude(b) == 0 {
-        // -0 only if both are.
-        return if magnitude(a) == 0 { a & b } else { a };
     }
     let ((large, x), (small, y)) = (fraction(a), fraction(b));
     if large - small > FAR {

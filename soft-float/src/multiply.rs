@@ -10,6 +10,10 @@ use crate::bits::{
 pub const fn mul(a: u32, b: u32) -> u32 {
     let (ea, eb) = (exponent(a), exponent(b));
     if !is_normal(ea) || !is_normal(eb) {
+        // Zeros are common: of normals and directions along an axis.
+        if (a << 1 == 0 && eb != 255) || (b << 1 == 0 && ea != 255) {
+            return (a ^ b) & SIGN;
+        }
         return mul_special(a, b);
     }
     let mut m = product(significand(a), significand(b));
@@ -54,12 +58,9 @@ const fn mul_special(a: u32, b: u32) -> u32 {
     }
     let sign = (a ^ b) & SIGN;
     let infinite = magnitude(a) == INFINITY || magnitude(b) == INFINITY;
-    let zero = magnitude(a) == 0 || magnitude(b) == 0;
-    match (infinite, zero) {
-        (true, true) => return NAN,
-        (true, false) => return sign | INFINITY,
-        (false, true) => return sign,
-        (false, false) => {}
+    if infinite {
+        let zero = magnitude(a) == 0 || magnitude(b) == 0;
+        return if zero { NAN } else { sign | INFINITY };
     }
     let ((ea, x), (eb, y)) = (unpack(a), unpack(b));
     let m = product(x, y);

@@ -1,9 +1,10 @@
 //! The firmware on every board: it builds without a warning, renders the same bytes as the host,
-//! in fixed point and in floats, soft and hard, and stays within the memory that was promised.
+//! in fixed point and in floats, soft and hard, without divisions in fixed point and with the floating-point
+//! unit's square roots, and stays within the memory that was promised.
 //!
 //! Boards whose target is not installed, or whose emulator is missing, are skipped; which, is told.
 
-use object::{Object, ObjectSection, SectionFlags};
+use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
 use octray_core::octree::Options;
 use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
 use octray_core::trace::{Pending, Tracer, Workspace};
@@ -226,18 +227,68 @@ fn hash_here<S: Quantize>(job: Job) -> String {
     format!("{hash:016x}")
 }
 
-/// Renders on every board, and compares with the host.
-fn same_everywhere(job: Job, expected: &str) {
+/// Renders on every board, and compares with the host. What was built is looked at, too.
+fn same_everywhere(job: Job, expected: &str, look: impl Fn(Board, &[u8])) {
     let _alone = alone();
     for board in BOARDS {
         if let Some(install) = board.missing() {
             eprintln!("skipped {board:?}: {install}");
             continue;
         }
-        let told = emulate(board, &build(board, job));
+        let firmware = build(board, job);
+        look(board, &fs::read(&firmware).unwrap());
+        let told = emulate(board, &firmware);
         assert_eq!(value(&told, "hash"), expected, "{board:?} {job:?}");
         assert_eq!(value(&told, "arith"), job.arith);
     }
+}
+
+/// No division of the compiler's library is linked, not even outside of the tracer.
+fn divides_by_no_routine(board: Board, elf: &[u8]) {
+    let elf = object::File::parse(elf).unwrap();
+    let names: Vec<_> = elf.symbols().filter_map(|s| s.name().ok()).collect();
+    assert!(names.iter().any(|name| name.contains("trace")), "stripped");
+    let routines = [
+        "__aeabi_idiv",
+        "__aeabi_uidiv",
+        "__aeabi_ldivmod",
+        "__aeabi_uldivmod",
+        "__divsi3",
+        "__divdi3",
+        "__modsi3",
+        "__moddi3",
+        "__udivsi3",
+        "__udivdi3",
+        "__udivmod",
+        "__umodsi3",
+        "__umoddi3",
+        "div_rem",
+    ];
+    let divides: Vec<_> = (names.iter())
+        .filter(|name| routines.iter().any(|routine| name.contains(routine)))
+        .collect();
+    assert!(divides.is_empty(), "{board:?}: {divides:?}");
+}
+
+/// Where there is a unit for floats, its instruction takes the square roots, not libm.
+fn takes_roots_by_the_unit(board: Board, elf: &[u8]) {
+    let is_root: fn(u32) -> bool = match board.target {
+        // VSQRT.F32; registers left open. The first half word comes first.
+        "thumbv7em-none-eabihf" => |word| word.rotate_left(16) & 0xffbf_0fd0 == 0xeeb1_0ac0,
+        // FSQRT.S; registers and rounding mode left open.
+        "riscv32imafc-unknown-none-elf" => |word| word & 0xfff0_007f == 0x5800_0053,
+        _ => return,
+    };
+    let elf = object::File::parse(elf).unwrap();
+    let found = (elf.sections())
+        .filter(|section| section.kind() == SectionKind::Text)
+        .filter_map(|section| section.data().ok())
+        // Instructions begin at even addresses.
+        .flat_map(|code| (0..code.len() / 2).filter_map(|i| code[2 * i..].first_chunk()))
+        .any(|bytes| is_root(u32::from_le_bytes(*bytes)));
+    assert!(found, "{board:?}: no instruction for square roots");
+    let libm = (elf.symbols().filter_map(|s| s.name().ok())).any(|name| name.contains("sqrtf"));
+    assert!(!libm, "{board:?}: libm's square root is linked");
 }
 
 const SMALL: (u32, u32) = (32, 24);
@@ -250,7 +301,11 @@ fn fixed_point_is_the_same_everywhere() {
         size: SMALL,
         tree: "packed",
     };
-    same_everywhere(job, &hash_here::<Fixed<16, true>>(job));
+    same_everywhere(
+        job,
+        &hash_here::<Fixed<16, true>>(job),
+        divides_by_no_routine,
+    );
 }
 
 #[test]
@@ -261,7 +316,7 @@ fn floats_are_the_same_everywhere() {
         size: SMALL,
         tree: "packed",
     };
-    same_everywhere(job, &hash_here::<f32>(job));
+    same_everywhere(job, &hash_here::<f32>(job), takes_roots_by_the_unit);
 }
 
 /// The firmware's own routines for floats and the compiler's agree, where either are used.

@@ -41,7 +41,7 @@ pub struct Packed<'a, const ROOM: usize = PACKED_STACK> {
     pub words: &'a [u32],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
-    /// A tick is 2 to this grid units.
+    /// A tick is 2 to this grid units; at least 1.
     pub tick: u32,
 }
 
@@ -124,9 +124,11 @@ impl<'a> Packed<'a> {
     }
 }
 
-/// The least shift that brings a reach, and what rounding adds to it, below 2^`REACH_BITS`.
+/// The least shift, but for 0, that brings a reach, and what rounding adds to it, below
+/// 2^`REACH_BITS`.
 fn tick_of(reach: i32) -> u32 {
-    (i32::BITS - reach.saturating_add(reach >> 8).leading_zeros()).saturating_sub(REACH_BITS)
+    let bits = i32::BITS - reach.saturating_add(reach >> 8).leading_zeros();
+    bits.saturating_sub(REACH_BITS).max(1)
 }
 
 struct Builder<'b> {
@@ -315,7 +317,7 @@ impl Along {
         let inverse = reciprocal_q15(size << zeros >> 16) as i32;
         let shift = 9u32.wrapping_sub(zeros) & 15;
         Self {
-            origin: origin.grid().saturating_add(1 << tick >> 1) >> tick,
+            origin: ((origin.grid() >> (tick.wrapping_sub(1) & 31)) + 1) >> 1,
             slope: if slope_q30 < 0 { -inverse } else { inverse },
             shift,
             loose_q8: (MARGIN << 8)

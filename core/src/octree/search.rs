@@ -46,7 +46,8 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
                     self.found = Some(object);
                     return true;
                 }
-                if t < self.limit || self.precedes(object) {
+                let first = |found| precedes(self.scene, object, found);
+                if t < self.limit || self.found.is_none_or(first) {
                     self.limit = t;
                     self.found = Some(object);
                 }
@@ -58,13 +59,6 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
         false
     }
 
-    /// Whether an object at the very distance of the one found comes before it in the scene file.
-    #[cold]
-    fn precedes(&self, object: ObjectRef) -> bool {
-        let id = |object| self.scene.attributes_of(object).id;
-        self.found.is_none_or(|found| id(object) < id(found))
-    }
-
     #[inline(always)]
     pub(super) fn hit(self) -> Option<Hit<S>> {
         self.found.map(|object| Hit {
@@ -72,4 +66,16 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
             object,
         })
     }
+}
+
+/// Whether an object at the very distance of the one found comes before it in the scene file.
+#[cold]
+#[inline(never)]
+fn precedes<S: Scalar, const NEEDS: Needs>(
+    scene: &Scene<'_, S, NEEDS>,
+    object: ObjectRef,
+    found: ObjectRef,
+) -> bool {
+    let id = |object| scene.attributes_of(object).id;
+    id(object) < id(found)
 }

@@ -186,6 +186,11 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
+    fn or_little_more(self) -> Self {
+        Self(self.0.or_little_more())
+    }
+
+    #[inline(always)]
     fn accumulate(self, light: Self) -> Self {
         self + light
     }

@@ -102,7 +102,7 @@ impl Sub for Product {
 pub struct Reciprocal {
     /// In [2³⁰, 2³¹), with the sign of x.
     mantissa: i32,
-    /// 0 to 62.
+    /// 1 to 62.
     shift: u8,
 }
 
@@ -125,8 +125,8 @@ impl Reciprocal {
         let size = raw.unsigned_abs();
         if size == 0 {
             return Self {
-                mantissa: 1 << 30,
-                shift: 0,
+                mantissa: i32::MAX,
+                shift: 1,
             };
         }
         let zeros = leading_zeros(size);
@@ -140,9 +140,8 @@ impl Reciprocal {
     /// `a` / x, to nearest, saturating.
     #[inline(always)]
     fn divide(self, a: i32) -> i32 {
-        let product = multiply::signed(a, self.mantissa);
-        let half = (1i64 << (self.shift & 63)) >> 1;
-        saturate((product + half) >> (self.shift & 63))
+        let twice = multiply::signed(a, self.mantissa) >> (self.shift.wrapping_sub(1) & 63);
+        saturate((twice + 1) >> 1)
     }
 }
 
@@ -154,6 +153,29 @@ fn saturate(raw: i64) -> i32 {
         -i32::MAX
     } else {
         i32::MAX
+    }
+}
+
+/// The upper word of `x` · 2^`left`, 0 ≤ `left` < 64: what is shifted out is lost. In words of 32
+/// bits, since many cores have no other shifts.
+#[inline(always)]
+fn upper(x: u64, left: u32) -> u32 {
+    let (high, low) = ((x >> 32) as u32, x as u32);
+    if left >= 32 {
+        low << (left & 31)
+    } else {
+        high << left | (low >> 1) >> (31 - left)
+    }
+}
+
+/// `x_q30` / 2^`right` without its fraction, saturating; 0 ≤ `right` < 32.
+#[inline(always)]
+fn shortened(x_q30: u64, right: u32) -> i32 {
+    if right >= 2 {
+        // The upper word alone; less than 2³⁰ for two bits more, or the sign is not touched.
+        saturate(i64::from((x_q30 >> 32) as u32 >> (right - 2)))
+    } else {
+        saturate((x_q30 >> (30 + right)) as i64)
     }
 }
 
@@ -210,6 +232,11 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
+    fn square(self) -> Product {
+        Product(multiply::square(self.0) as i64)
+    }
+
+    #[inline(always)]
     fn narrow(wide: Product) -> Self {
         Self::fit(wide.0.wrapping_add(1 << (F - 1)) >> F)
     }
@@ -220,9 +247,9 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
             return Self(0);
         }
         let zeros = leading_zeros_64(wide.0 as u64) & !1;
-        let x_q32 = ((wide.0 << zeros) as u64 >> 32) as u32;
-        let root_q32 = (multiply::unsigned(x_q32, rsqrt_q30(x_q32)) + (1 << 29)) >> 30;
-        Self(saturate((root_q32 >> (zeros / 2)) as i64))
+        let x_q32 = upper(wide.0 as u64, zeros);
+        let root_q62 = multiply::unsigned(x_q32, rsqrt_q30(x_q32)) + (1 << 29);
+        Self(shortened(root_q62, zeros / 2))
     }
 
     type Reciprocal = Reciprocal;
@@ -270,22 +297,23 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = leading_zeros(size).saturating_sub(1);
-        let square_of = |c: i32| multiply::signed(c, c) as u64;
         let [x, y, z] = v.map(|c| c.0 << up);
-        let square = square_of(x)
-            .wrapping_add(square_of(y))
-            .wrapping_add(square_of(z));
-        let zeros = leading_zeros_64(square) & !1;
-        let x_q32 = ((square << (zeros & 63)) >> 32) as u32;
+        // In [2⁶⁰, 2⁶⁴): an even number of leading zeros is 0 or 2.
+        let square = multiply::square(x)
+            .wrapping_add(multiply::square(y))
+            .wrapping_add(multiply::square(z));
+        let zeros = if square >> 62 == 0 { 2 } else { 0 };
+        let x_q32 = ((square << zeros) >> 32) as u32;
         let inverse_q30 = rsqrt_q30(x_q32);
-        let shift = 62 - F - zeros / 2;
-        let half = 1i64 << (shift - 1);
+        // Below the upper word of the product, and at most 26.
+        let shift = 30 - F - zeros / 2;
+        let half = (1i32 << shift) >> 1;
         let unit = [x, y, z].map(|c| {
-            Self((multiply::signed(c, inverse_q30 as i32).wrapping_add(half) >> shift) as i32)
+            let product = multiply::signed(c, inverse_q30 as i32);
+            Self(((product >> 32) as i32).wrapping_add(half) >> shift)
         });
-        let length_q32 = multiply::unsigned(x_q32, inverse_q30) >> 30;
-        let length = length_q32 >> (up + zeros / 2);
-        (unit, Self(saturate(length as i64)))
+        let length_q62 = multiply::unsigned(x_q32, inverse_q30);
+        (unit, Self(shortened(length_q62, up + zeros / 2)))
     }
 
     #[inline(always)]

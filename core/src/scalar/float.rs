@@ -112,6 +112,12 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn or_little_more(self) -> Self {
+                // Four roundings.
+                self * (1.0 + 2.0 * $t::EPSILON)
+            }
+
+            #[inline(always)]
             fn accumulate(self, light: Self) -> Self {
                 self + light
             }

@@ -15,8 +15,15 @@ pub(crate) fn unsigned(a: u32, b: u32) -> u64 {
     u64::from(a) * u64::from(b)
 }
 
+/// The square of a signed number.
+#[cfg(not(octray_armv6m))]
+#[inline(always)]
+pub(crate) fn square(a: i32) -> u64 {
+    signed(a, a) as u64
+}
+
 #[cfg(octray_armv6m)]
-pub(crate) use short::{signed, unsigned};
+pub(crate) use short::{signed, square, unsigned};
 
 #[cfg(any(test, octray_armv6m))]
 mod short {
@@ -47,6 +54,16 @@ mod short {
             .wrapping_add(other >> 16);
         u64::from(high) << 32 | u64::from(other << 16 | low & 0xffff)
     }
+
+    /// The square of a signed number, in three products.
+    #[inline(never)]
+    pub(crate) fn square(a: i32) -> u64 {
+        let size = a.unsigned_abs();
+        let (low, high) = (size & 0xffff, size >> 16);
+        let middle = low * high;
+        let outer = u64::from(high * high) << 32 | u64::from(low * low);
+        outer + (u64::from(middle) << 17)
+    }
 }
 
 #[cfg(test)]
@@ -75,6 +92,7 @@ mod tests {
                 assert_eq!(short::unsigned(a, b), u64::from(a) * u64::from(b));
                 let (a, b) = (a as i32, b as i32);
                 assert_eq!(short::signed(a, b), i64::from(a) * i64::from(b));
+                assert_eq!(short::square(a), (i64::from(a) * i64::from(a)) as u64);
             }
         }
     }

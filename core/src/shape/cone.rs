@@ -41,7 +41,7 @@ impl<S: Scalar> Cone<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(d);
         let apart = d * middle - to_centre;
-        if apart.dot_wide(apart) > S::product(self.reach, self.reach) {
+        if apart.square_wide() > self.reach.square() {
             return None;
         }
         let w = apart.map(|c| c.to_local(self.exponent));
@@ -56,7 +56,7 @@ impl<S: Scalar> Cone<S> {
         // identity): b² and ac themselves are lost in coarse formats.
         let turn = d * edge - w * steep - self.axis * (rise * mid_edge);
         let past = self.cos * d.cross(w).dot(self.axis);
-        let discriminant = turn.dot_wide(turn) - S::product(past, past);
+        let discriminant = turn.square_wide() - past.square();
         if discriminant < S::product(S::ZERO, S::ZERO) {
             return None;
         }

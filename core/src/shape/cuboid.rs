@@ -23,7 +23,8 @@ struct Crossing<S> {
 
 impl<S: Scalar> Cuboid<S> {
     /// The slab method (Kay and Kajiya 1986). A ray along a slab is inside or outside of it for
-    /// good, its faces included; no quotient is formed.
+    /// good, its faces included; no quotient is formed. A ray through an edge meets the box: the
+    /// far side is taken for as far as rounding can have brought it nearer.
     #[inline(always)]
     fn cross(&self, ray: &Ray<S>) -> Option<Crossing<S>> {
         let mut entry = (-S::MAX, Axis::X);
@@ -47,7 +48,7 @@ impl<S: Scalar> Cuboid<S> {
                 exit = (far, axis);
             }
         }
-        (entry.0 <= exit.0).then_some(Crossing { entry, exit })
+        (entry.0 <= exit.0.or_little_more()).then_some(Crossing { entry, exit })
     }
 
     #[inline(always)]

@@ -20,14 +20,20 @@ pub(super) fn number(name: &str, number: u32) {
     digits(number);
 }
 
-fn digits(number: u32) {
-    let mut power = 1;
-    while number / power >= 10 {
-        power *= 10;
-    }
-    while power > 0 {
-        sys_writec(b'0' + (number / power % 10) as u8);
-        power /= 10;
+/// By subtraction: a division would link the library's routine on cores that have none.
+fn digits(mut number: u32) {
+    let mut begun = false;
+    for exponent in (0..10).rev() {
+        let power = 10u32.pow(exponent);
+        let mut digit = b'0';
+        while number >= power {
+            number -= power;
+            digit += 1;
+        }
+        begun |= digit != b'0' || exponent == 0;
+        if begun {
+            sys_writec(digit);
+        }
     }
 }
 

@@ -121,9 +121,15 @@ impl Line {
     pub fn plan(&self, scene: &Scene) -> Result<Plan, Error> {
         let unknown = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
         let formats = octray_scenes::bake::FORMATS;
+        // As the firmware's build script chooses it.
+        let board = (BOARDS.iter()).find(|board| board.name == self.board);
+        let dear = board.is_some_and(|board| {
+            let emulated = !board.fpu && Family::of(&self.format) == Family::F32;
+            emulated || board.target.starts_with("thumbv6m")
+        });
         let options = octree::Options {
             depth: 24,
-            leaf_size: 2,
+            leaf_size: if dear { 1 } else { 2 },
         };
         let mut plan = Plan {
             arith: (formats.into_iter().find(|name| *name == self.format))

@@ -24,7 +24,7 @@ impl Figure for Map<'_> {
     fn size(&self) -> (u32, u32) {
         let (across, down) = panels(self.0);
         let (width, height) = panel(self.0);
-        let width = (MARGIN + across * width).max(820);
+        let width = (MARGIN + across * width).max(880);
         (
             width as u32,
             (2 * MARGIN + 2 * LINE + 8 + down * height) as u32,

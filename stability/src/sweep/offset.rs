@@ -46,7 +46,7 @@ impl Sweep for Offset {
             },
             Form {
                 name: "epsilon",
-                label: "not scaled; hits count beyond t = 10⁻⁴",
+                label: "not scaled; hits count beyond t = 0.0001",
             },
         ],
         bounds: Bounds {
