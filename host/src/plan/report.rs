@@ -241,7 +241,7 @@ impl Report {
 
 /// A name and what there is to say of it.
 fn line(name: &str, what: &str) -> String {
-    format!("{name:<14}{what}\n")
+    format!("{name:<16}{what}\n")
 }
 
 /// A distance from the exact picture; none if it is the same.
