@@ -8,11 +8,15 @@
 //! | `OCTRAY_TREE` | `packed`, `device` (built on the board), `none`, or `auto`: `packed` where it pays | `auto` |
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
+//! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
+//! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, which says all of the above but the scene | none |
 //! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 0 |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_core::octree;
 use octray_scenes::bake::{Options, Tree, bake};
+use octray_scenes::model::Scene;
+use octray_scenes::plan::{Plan, PlanError};
 use octray_scenes::quantise::View;
 use std::path::Path;
 use std::{env, fs, process};
@@ -72,6 +76,15 @@ fn baked() -> Result<String, String> {
     let path = Path::new("..").join(variable("OCTRAY_SCENE", "scenes/figure-22.scene"));
     println!("cargo::rerun-if-changed={}", path.display());
     let scene = octray_scenes::read(&path).map_err(|error| error.to_string())?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let plan = variable("OCTRAY_PLAN", "");
+    if !plan.is_empty() {
+        let plan = read_plan(&Path::new("..").join(plan))?;
+        if let Tree::Device(_) = plan.tree {
+            println!("cargo::rustc-cfg=octray_device_tree");
+        }
+        return baked_as(&scene, plan.arith, &plan.options(&name));
+    }
     let size = variable("OCTRAY_SIZE", "160x120");
     let (width, height) = (size.split_once('x'))
         .and_then(|(w, h)| Some((w.parse::<u16>().ok()?, h.parse::<u16>().ok()?)))
@@ -97,19 +110,32 @@ fn baked() -> Result<String, String> {
         }
     };
     let options = Options {
-        name: &path.file_stem().unwrap_or_default().to_string_lossy(),
+        name: &name,
         view: View {
             size: Some((width.into(), height.into())),
-            pixels_per_ray: 1,
+            pixels_per_ray: number("OCTRAY_PIXELS_PER_RAY", "1")?,
             samples: 1,
             max_depth: number("OCTRAY_MAX_DEPTH", "8")?,
         },
         cut_off: 1.0 / 512.0,
         tree,
+        rays: None,
     };
-    bake(&scene, &arith, &options)
+    baked_as(&scene, &arith, &options)
+}
+
+fn baked_as(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<String, String> {
+    bake(scene, arith, options)
         .map(|baked| baked.source)
         .map_err(|error| error.to_string())
+}
+
+fn read_plan(path: &Path) -> Result<Plan, String> {
+    println!("cargo::rerun-if-changed={}", path.display());
+    let at = |error: String| format!("{}: {error}", path.display());
+    let text = fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
+    text.parse()
+        .map_err(|error: PlanError| at(error.to_string()))
 }
 
 /// What it takes to test a ray against an object, compared with a box of the tree, which is tested in

@@ -1,5 +1,7 @@
 //! What the tracer tells whoever wants to know: rays by kind, steps, tests.
 
+use crate::shape::Kind;
+
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -26,12 +28,12 @@ pub trait Observer {
     /// A ray of the given kind, not a shadow ray, met something.
     #[inline(always)]
     fn hit(&mut self, _: RayKind) {}
-    /// A ray came to a node of the octree, leaf or not.
+    /// A ray came to a node of the octree, leaf or not, and to the boxes of so many children.
     #[inline(always)]
-    fn step(&mut self) {}
-    /// A ray was tested against an object.
+    fn step(&mut self, _children: usize) {}
+    /// A ray was tested against an object of a kind, and met it or not.
     #[inline(always)]
-    fn test(&mut self) {}
+    fn test(&mut self, _: Kind, _met: bool) {}
     /// This many rays wait on the stack.
     #[inline(always)]
     fn pending(&mut self, _: usize) {}
@@ -54,6 +56,34 @@ pub struct Counters {
     pub tests: u64,
     /// The most rays that ever waited on the stack.
     pub deepest: u64,
+    /// The same steps and tests in detail: of rays that look for the closest hit, and of shadow rays.
+    pub searches: [Searches; 2],
+    /// Which of the two is going on, 0 or 1.
+    pub search: usize,
+}
+
+/// What searches did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Searches {
+    /// Octree nodes visited.
+    pub steps: u64,
+    /// Their children.
+    pub children: u64,
+    /// Object tests by [`Kind`].
+    pub tests: [u64; 5],
+    /// Those of them that met the object.
+    pub met: [u64; 5],
+}
+
+impl Searches {
+    fn add(&mut self, other: &Self) {
+        self.steps += other.steps;
+        self.children += other.children;
+        for kind in 0..5 {
+            self.tests[kind] += other.tests[kind];
+            self.met[kind] += other.met[kind];
+        }
+    }
 }
 
 impl Counters {
@@ -79,6 +109,9 @@ impl Counters {
         self.steps += other.steps;
         self.tests += other.tests;
         self.deepest = self.deepest.max(other.deepest);
+        for (mine, theirs) in self.searches.iter_mut().zip(&other.searches) {
+            mine.add(theirs);
+        }
     }
 }
 
@@ -86,6 +119,7 @@ impl Observer for Counters {
     #[inline(always)]
     fn ray(&mut self, kind: RayKind) {
         self.rays[kind as usize] += 1;
+        self.search = usize::from(kind == RayKind::Shadow);
     }
     #[inline(always)]
     fn blocked(&mut self) {
@@ -96,12 +130,18 @@ impl Observer for Counters {
         self.hits[kind as usize] += 1;
     }
     #[inline(always)]
-    fn step(&mut self) {
+    fn step(&mut self, children: usize) {
         self.steps += 1;
+        let search = &mut self.searches[self.search & 1];
+        search.steps += 1;
+        search.children += children as u64;
     }
     #[inline(always)]
-    fn test(&mut self) {
+    fn test(&mut self, kind: Kind, met: bool) {
         self.tests += 1;
+        let search = &mut self.searches[self.search & 1];
+        search.tests[kind as usize] += 1;
+        search.met[kind as usize] += u64::from(met);
     }
     #[inline(always)]
     fn pending(&mut self, count: usize) {

@@ -96,8 +96,9 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
         let limit = distance - light.clearance - point.error;
         let last = blockers.get(i).copied().flatten();
         let still = last.filter(|&object| {
-            observer.test();
-            scene.shapes.blocks(object, &ray, limit)
+            let blocks = scene.shapes.blocks(object, &ray, limit);
+            observer.test(object.kind(), blocks);
+            blocks
         });
         let blocker = still.or_else(|| accelerator.any_hit(scene, &ray, limit, stack, observer));
         if blocker.is_some() {

@@ -1,6 +1,7 @@
 //! Counts of rays, steps and tests in 32 bits, for cores on which 64 cost more.
 
 use octray_core::observe::{Observer, RayKind};
+use octray_core::shape::Kind;
 
 /// Counts; they wrap at 2³².
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,11 +29,11 @@ impl Observer for Tally {
         self.blocked = self.blocked.wrapping_add(1);
     }
     #[inline(always)]
-    fn step(&mut self) {
+    fn step(&mut self, _children: usize) {
         self.steps = self.steps.wrapping_add(1);
     }
     #[inline(always)]
-    fn test(&mut self) {
+    fn test(&mut self, _: Kind, _met: bool) {
         self.tests = self.tests.wrapping_add(1);
     }
     #[inline(always)]

@@ -3,14 +3,16 @@
 use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::Arith;
+use crate::job::{Arith, PixelsPerRay};
 use crate::output;
 use clap::ValueEnum;
 use octray_core::octree;
 use octray_scenes::bake::{Options, Tree, bake};
+use octray_scenes::plan::Plan;
 use octray_scenes::quantise::View;
+use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What to bake, and where to write it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,8 @@ pub struct BakeJob {
     pub arith: Arith,
     /// Columns and rows; the scene's own if `None`.
     pub size: Option<(u32, u32)>,
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: PixelsPerRay,
     /// What finds the objects.
     pub tree: TreeKind,
     /// The most bounces.
@@ -29,6 +33,8 @@ pub struct BakeJob {
     pub cut_off: f64,
     /// Objects up to which a node is not divided.
     pub leaf_size: u32,
+    /// A plan that says all of these.
+    pub plan: Option<PathBuf>,
     /// The Rust source; standard output if `None`.
     pub output: Option<PathBuf>,
 }
@@ -64,15 +70,16 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned();
+    let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
     let growth = octree::Options {
         depth: TREE_DEPTH,
         leaf_size: job.leaf_size,
     };
-    let options = Options {
+    let chosen = Options {
         name: &name,
         view: View {
             size: job.size,
-            pixels_per_ray: 1,
+            pixels_per_ray: job.pixels_per_ray.number(),
             samples: 1,
             max_depth: job.max_depth,
         },
@@ -82,13 +89,27 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
             TreeKind::Device => Tree::Device(growth),
             TreeKind::None => Tree::None,
         },
+        rays: None,
     };
-    let baked = bake(&scene, job.arith.name(), &options)
-        .map_err(|error| Error::Failed(error.to_string()))?;
+    let (arith, options) = match &plan {
+        Some(plan) => (plan.arith, plan.options(&name)),
+        None => (job.arith.name(), chosen),
+    };
+    let baked = bake(&scene, arith, &options).map_err(|error| Error::Failed(error.to_string()))?;
     interrupt.check()?;
     let write = |out: &mut dyn Write| -> io::Result<()> { out.write_all(baked.source.as_bytes()) };
     match &job.output {
         Some(path) => output::write_file(path, interrupt, write),
         None => output::write_stdout(interrupt, write),
     }
+}
+
+/// Reads a plan that `octray plan --emit` has written.
+///
+/// # Errors
+/// If it cannot be read, or is none.
+pub fn read_plan(path: &Path) -> Result<Plan, Error> {
+    let text = fs::read_to_string(path).map_err(|cause| Error::read(path, cause))?;
+    text.parse()
+        .map_err(|why| Error::Failed(format!("{}: {why}", path.display())))
 }

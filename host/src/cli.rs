@@ -9,6 +9,7 @@ mod check;
 mod diff;
 mod generate;
 mod measure;
+mod plan;
 mod render;
 mod report;
 mod schedule;
@@ -22,6 +23,7 @@ pub use check::CheckArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use measure::MeasureArgs;
+pub use plan::PlanArgs;
 pub use render::RenderArgs;
 pub use report::ReportArgs;
 pub use schedule::ScheduleArgs;
@@ -56,6 +58,8 @@ pub enum Command {
     Schedule(ScheduleArgs),
     /// Measure what pictures cost on small targets, in an emulator
     Measure(MeasureArgs),
+    /// Find the least a scene needs on a small target, and predict what it costs
+    Plan(PlanArgs),
     /// Chart what accuracy costs, over arithmetics and settings, and choose
     Chart(ChartArgs),
     /// Write one page with pictures, charts, tables and limits

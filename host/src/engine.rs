@@ -5,7 +5,7 @@
 //! of a distributed rendering.
 
 use crate::error::Error;
-use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use crate::job::{Arith, Link, Tree, TreeOptions, ViewOptions};
 use crate::packets::Packet;
 use crate::picture::{Intensity, Level};
 use crate::stats::Octree;
@@ -21,6 +21,7 @@ use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{self, Prepared, View};
 use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// A scene in one arithmetic, with one tree.
 pub trait Engine: Send + Sync {
@@ -121,6 +122,43 @@ pub fn build(
     }
 }
 
+/// Makes a scene ready as small targets have it, with a packed tree or none: in any format that
+/// [`octray_scenes::bake`] knows by name but approximate and 64-bit fixed ones.
+///
+/// # Errors
+/// [`Error::Failed`] if the scene does not fit the format or the tree, or the format is not known.
+pub fn build_small(
+    scene: &Scene,
+    format: &str,
+    tree: Option<Options>,
+    view: &ViewOptions,
+) -> Result<Box<dyn Engine>, Error> {
+    let tree = &TreeOptions {
+        kind: tree.map_or(Tree::None, |_| Tree::Packed),
+        depth: tree.map(|options| options.depth),
+        leaf_size: tree.and_then(|options| NonZeroU32::new(options.leaf_size)),
+        arena: None,
+        link: Link::Shape,
+    };
+    let plan = Plan { scene, tree, view };
+    match format {
+        "f64" => plan.small::<f64>(),
+        "f32" => plan.small::<f32>(),
+        "i24f8" => plan.small::<Fixed<8, true>>(),
+        "i22f10" => plan.small::<Fixed<10, true>>(),
+        "i20f12" => plan.small::<Fixed<12, true>>(),
+        "i18f14" => plan.small::<Fixed<14, true>>(),
+        "i16f16" => plan.small::<Fixed<16, true>>(),
+        "i14f18" => plan.small::<Fixed<18, true>>(),
+        "i12f20" => plan.small::<Fixed<20, true>>(),
+        "i10f22" => plan.small::<Fixed<22, true>>(),
+        "i8f24" => plan.small::<Fixed<24, true>>(),
+        "i6f26" => plan.small::<Fixed<26, true>>(),
+        "i4f28" => plan.small::<Fixed<28, true>>(),
+        other => Err(Error::Failed(format!("no small target has {other}"))),
+    }
+}
+
 /// What is to be made ready, in whatever arithmetic.
 struct Plan<'a> {
     scene: &'a Scene,
@@ -138,62 +176,63 @@ impl Plan<'_> {
     fn quantised_view(&self) -> View {
         View {
             size: self.view.size,
-            pixels_per_ray: match self.view.pixels_per_ray {
-                PixelsPerRay::One => 1,
-                PixelsPerRay::Four => 4,
-            },
+            pixels_per_ray: self.view.pixels_per_ray.number(),
             samples: self.view.samples,
             max_depth: self.view.max_depth,
         }
     }
 
+    /// With any tree.
     fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
-        let mut prepared = quantise::quantise::<S>(self.scene, &self.quantised_view())
-            .map_err(|overflow| Error::Failed(overflow.to_string()))?;
-        let default_depth = match self.tree.kind {
-            Tree::Tight | Tree::Packed | Tree::None => 24,
-            Tree::Plain | Tree::Modified => 8,
+        let variant = match self.tree.kind {
+            Tree::Packed | Tree::None => return self.small::<S>(),
+            Tree::Tight => None,
+            Tree::Modified => Some(Variant::Modified),
+            Tree::Plain => Some(Variant::Plain),
         };
-        let growth = Growth {
-            options: Options {
-                depth: self.tree.depth.unwrap_or(default_depth),
-                leaf_size: self.tree.leaf_size.map_or(2, std::num::NonZero::get),
-            },
-            arena: self.tree.arena.map(std::num::NonZero::get),
+        let mut prepared = self.prepare::<S>()?;
+        let Some(variant) = variant else {
+            let (tree, summary) = TightTree::build(&mut prepared.scene, &self.growth(24));
+            return Ok(self.ready(prepared, tree, summary));
         };
         let link = match self.tree.link {
             Link::Shape => octree::Link::Shape,
             Link::Box => octree::Link::Box,
         };
-        let objects = &mut prepared.scene;
-        match self.tree.kind {
-            Tree::Tight => {
-                let (tree, summary) = TightTree::build(objects, &growth);
-                Ok(self.ready(prepared, tree, summary))
-            }
-            Tree::Packed => {
-                let (tree, summary) = PackedTree::build(objects, &growth).map_err(|_| {
-                    Error::Failed("a packed tree holds at most 32767 objects".into())
-                })?;
-                Ok(self.ready(prepared, tree, summary))
-            }
-            Tree::Modified | Tree::Plain => {
-                let variant = match self.tree.kind {
-                    Tree::Plain => Variant::Plain,
-                    _ => Variant::Modified,
-                };
-                let (tree, summary) = OctantTree::build(objects, &growth, variant, link);
-                Ok(self.ready(prepared, tree, summary))
-            }
-            Tree::None => {
-                let all = every_object(&prepared.scene);
-                let summary = Summary {
-                    links: all.len() as u32,
-                    ..Summary::default()
-                };
-                Ok(self.ready(prepared, all, summary))
-            }
+        let growth = self.growth(8);
+        let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
+        Ok(self.ready(prepared, tree, summary))
+    }
+
+    /// With a packed tree, or none.
+    fn small<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let mut prepared = self.prepare::<S>()?;
+        if self.tree.kind == Tree::Packed {
+            let (tree, summary) = PackedTree::build(&mut prepared.scene, &self.growth(24))
+                .map_err(|_| Error::Failed("a packed tree holds at most 32767 objects".into()))?;
+            return Ok(self.ready(prepared, tree, summary));
         }
+        let all = every_object(&prepared.scene);
+        let summary = Summary {
+            links: all.len() as u32,
+            ..Summary::default()
+        };
+        Ok(self.ready(prepared, all, summary))
+    }
+
+    fn growth(&self, default_depth: u32) -> Growth {
+        Growth {
+            options: Options {
+                depth: self.tree.depth.unwrap_or(default_depth),
+                leaf_size: self.tree.leaf_size.map_or(2, NonZeroU32::get),
+            },
+            arena: self.tree.arena.map(NonZeroUsize::get),
+        }
+    }
+
+    fn prepare<S: Quantize>(&self) -> Result<Prepared<S>, Error> {
+        quantise::quantise::<S>(self.scene, &self.quantised_view())
+            .map_err(|overflow| Error::Failed(overflow.to_string()))
     }
 
     fn ready<S: Quantize, T: Grown<S> + 'static>(

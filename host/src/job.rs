@@ -197,6 +197,16 @@ impl Arith {
     }
 }
 
+impl PixelsPerRay {
+    /// How many.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::One => 1,
+            Self::Four => 4,
+        }
+    }
+}
+
 impl Tree {
     /// Its name on the command line and in statistics.
     pub fn name(self) -> &'static str {

@@ -1,7 +1,7 @@
 //! The command `octray`, as a library so that tests and reports can use its parts.
 //!
 //! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`stability`], [`chart`], [`tables`]) to an exit code ([`error`]).
+//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`plan`], [`stability`], [`chart`], [`tables`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
@@ -35,6 +35,7 @@ pub mod output;
 pub mod packets;
 pub mod packing;
 pub mod picture;
+pub mod plan;
 pub mod progress;
 #[cfg(feature = "mpi")]
 pub mod ranks;
@@ -103,6 +104,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         Command::Generate(args) => generate::run(&args.job(), interrupt),
         Command::Diff(args) => diff::run(&args.job(), interrupt),
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
+        Command::Plan(args) => plan::run(&args.job()?, interrupt),
         Command::Schedule(args) => sweep::run(&args.job()?, interrupt),
         Command::Chart(args) => chart::run(&args.job()?, interrupt),
         Command::Report(args) => report::run(&args.job()?, interrupt),

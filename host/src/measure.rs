@@ -34,6 +34,7 @@ use emulate::Emulator;
 use frames::{Bench, Named};
 use job::MeasureJob;
 use report::{Report, With};
+use row::Row;
 use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
@@ -58,6 +59,26 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     if job.kernels {
         return kernels::run(job, interrupt);
     }
+    let report = measure(job, interrupt)?;
+    report.write(&row::COLUMNS, job, interrupt)?;
+    if let Some(path) = &job.chart {
+        let chart = Chart::of(&report.rows).ok_or_else(|| {
+            Error::Failed("no core was measured without and with its floating-point unit".into())
+        })?;
+        canvas::write_figure(path, &chart, interrupt)?;
+    }
+    output::write_stdout(interrupt, |out| {
+        out.write_all(table::text(&report.rows, job.functions).as_bytes())
+    })?;
+    all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
+}
+
+/// Measure every combination.
+///
+/// # Errors
+/// When something is missing, a scene is refused, or cargo or the emulator cannot be run. A combination that
+/// fails is a row that says so.
+pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report<Row>, Error> {
     let root = Workspace::root()?;
     let scenes = match &*job.scenes {
         [] => FIGURES.iter().map(|name| root.join(name)).collect(),
@@ -83,21 +104,10 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     };
     let rows = bench.frames(&scenes, job)?;
     drop(progress);
-    let report = Report {
+    Ok(Report {
         with: With::of(&workspace, &job.boards),
         rows,
-    };
-    report.write(&row::COLUMNS, job, interrupt)?;
-    if let Some(path) = &job.chart {
-        let chart = Chart::of(&report.rows).ok_or_else(|| {
-            Error::Failed("no core was measured without and with its floating-point unit".into())
-        })?;
-        canvas::write_figure(path, &chart, interrupt)?;
-    }
-    output::write_stdout(interrupt, |out| {
-        out.write_all(table::text(&report.rows, job.functions).as_bytes())
-    })?;
-    all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
+    })
 }
 
 /// An error if some of what was to be measured failed.
@@ -109,7 +119,10 @@ fn all_done(failures: usize) -> Result<(), Error> {
 }
 
 /// Builds the plugin that counts.
-pub(crate) fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
+///
+/// # Errors
+/// If it cannot be built.
+pub fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
     let program = Program {
         package: "octray-count",
         arguments: &["--release"],

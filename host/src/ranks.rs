@@ -90,6 +90,8 @@ impl Tally {
             steps: self.steps,
             tests: self.tests,
             deepest: self.deepest,
+            // Nobody asks a rendering for its details.
+            ..Counters::default()
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::deal::Deal;
 use crate::engine::{self, Built, Engine, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::RenderJob;
+use crate::job::{RenderJob, WorkOptions};
 use crate::packets::{Packet, Packets};
 use crate::packing;
 use crate::picture::Picture;
@@ -38,7 +38,9 @@ pub fn trace(
     let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let (picture, counters, work, saturations) = render(&*engine, job, progress, interrupt)?;
+    let holds_intensities = job.output.holds_intensities();
+    let rendered = render(&*engine, &job.work, holds_intensities, progress, interrupt)?;
+    let (picture, counters, work, saturations) = rendered;
     let times = (build, begin.elapsed());
     let built = engine.built();
     Ok(traced(built, picture, &counters, saturations, times, work))
@@ -77,14 +79,17 @@ pub(crate) fn traced(
     }
 }
 
-/// A picture of which nothing is traced yet, and the region that is to be.
+/// A picture of which nothing is traced yet, with intensities if they are wanted, and the region that is to be.
 ///
 /// # Errors
 /// [`Error::Failed`] if it does not fit into memory.
-pub(crate) fn blank(engine: &dyn Engine, job: &RenderJob) -> Result<(Picture, Region), Error> {
+pub(crate) fn blank(
+    engine: &dyn Engine,
+    holds_intensities: bool,
+) -> Result<(Picture, Region), Error> {
     let built = engine.built();
     let (width, height) = built.size;
-    let mut picture = Picture::black(width, height, job.output.holds_intensities())
+    let mut picture = Picture::black(width, height, holds_intensities)
         .ok_or_else(|| Error::Failed("the picture does not fit into memory".into()))?;
     let region = built.region();
     picture.fill_outside(region.rows.clone(), built.background);
@@ -93,26 +98,31 @@ pub(crate) fn blank(engine: &dyn Engine, job: &RenderJob) -> Result<(Picture, Re
 
 /// Deals the picture's packets to threads. Returns it with what they counted (counting costs less than
 /// the time of a frame varies), how they worked, and the saturations.
-fn render(
+///
+/// # Errors
+/// [`Error::Failed`] if the picture does not fit into memory or the system refuses a thread;
+/// [`Error::Interrupted`] if it was.
+pub fn render(
     engine: &dyn Engine,
-    job: &RenderJob,
+    job: &WorkOptions,
+    holds_intensities: bool,
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
-    let (mut picture, region) = blank(engine, job)?;
+    let (mut picture, region) = blank(engine, holds_intensities)?;
     // Those of the probe are not the picture's.
     let before = scalar::saturations();
-    let packing = packing::choose(engine, &region, &job.work, interrupt)?;
+    let packing = packing::choose(engine, &region, job, interrupt)?;
     let probed = scalar::saturations().wrapping_sub(before);
     let packets = Packets::cut(&mut picture, &region, packing.shape);
     let count = packets.len();
-    let threads = job.work.threads.min(at_least_one(count));
+    let threads = job.threads.min(at_least_one(count));
     progress.start(count);
     let finished = run_packets(
         &Deal::new(packing.policy, count, threads, packing.order),
         interrupt,
         |thread| {
-            if job.work.pin {
+            if job.pin {
                 threads::pin(thread)?;
             }
             Ok(engine.worker())

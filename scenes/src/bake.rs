@@ -45,6 +45,9 @@ pub struct Options<'a> {
     pub cut_off: f64,
     /// What finds the objects.
     pub tree: Tree,
+    /// Room for so many rays that wait, where that is known to do; otherwise as many as the scene's
+    /// surfaces can make wait.
+    pub rays: Option<usize>,
 }
 
 /// What finds the objects of a baked scene.
@@ -70,6 +73,12 @@ pub struct Baked {
     pub needs: Needs,
     /// Bytes of the tables, links and nodes included, on a target of 32 bits.
     pub bytes: usize,
+    /// How many rays can wait at once.
+    pub rays: usize,
+    /// Words of the tree, wherever it is built.
+    pub words: usize,
+    /// How many of its nodes can wait at once, at the most.
+    pub nodes: usize,
 }
 
 /// Why a scene cannot be baked.
@@ -104,7 +113,11 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         Tree::None => (source::Tree::None, every),
         Tree::Packed(options) => {
             let tree = grow(&mut prepared.scene, options)?;
-            (source::Tree::Packed(tree.words, tree.tick), tree.links)
+            let nodes = tree.tree().waiting();
+            (
+                source::Tree::Packed(tree.words, tree.tick, nodes),
+                tree.links,
+            )
         }
         Tree::Device(growth) => {
             // The device finds the objects in the order of the file.
@@ -113,12 +126,13 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         }
     };
     let needs = needs_of(&prepared, options.view.max_depth);
+    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), needs, options));
     let tables = source::Tables {
         prepared: &prepared,
         tree,
         links: &links,
         needs,
-        rays: room(&used_surfaces(&prepared), needs, options),
+        rays,
         options,
     };
     Ok(Baked {
@@ -126,6 +140,9 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         source: tables.to_string(),
         format: S::NAME,
         needs,
+        rays,
+        words: tables.tree.room(),
+        nodes: tables.tree.nodes(),
     })
 }
 

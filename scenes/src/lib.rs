@@ -11,6 +11,7 @@
 //! | [`mod@generate`] | scenes of any size from a seed |
 //! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
 //! | [`tree`] | octrees of a quantised scene, in memory of their own |
+//! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
 //! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 //!
@@ -30,6 +31,7 @@ pub mod diagnostic;
 pub mod generate;
 pub mod model;
 pub mod parse;
+pub mod plan;
 pub mod quantise;
 pub mod tree;
 pub mod write;

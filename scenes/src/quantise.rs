@@ -16,7 +16,7 @@ mod shapes;
 
 pub use camera::View;
 pub use extent::Extent;
-pub use limits::{Overflow, limits};
+pub use limits::{Bound, Overflow, bounds, limits};
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::model;

@@ -18,6 +18,7 @@ fn baked(text: &str, arith: &str, max_depth: u32) -> Result<Baked, BakeError> {
         view,
         cut_off: 1.0 / 512.0,
         tree: Tree::None,
+        rays: None,
     };
     bake(&scene, arith, &options)
 }

@@ -371,7 +371,7 @@ impl<P: Plane> Octants<'_, P> {
             let Some(node) = self.nodes.get(place as usize) else {
                 continue;
             };
-            search.observer.step();
+            search.observer.step(1);
             let start = node.first as usize;
             let end = start + node.count() as usize;
             if node.is_leaf() {

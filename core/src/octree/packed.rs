@@ -34,9 +34,9 @@ const REACH_BITS: u32 = 14;
 /// How far rounding can bring a distance in ticks off; proved at [`Along`].
 const MARGIN: i32 = 4;
 
-/// A finished tree.
+/// A finished tree, walked with a stack of so much room.
 #[derive(Clone, Copy, Debug)]
-pub struct Packed<'a> {
+pub struct Packed<'a, const ROOM: usize = PACKED_STACK> {
     /// The nodes, the root first.
     pub words: &'a [u32],
     /// The objects, leaf by leaf, the last of each leaf marked.
@@ -47,18 +47,19 @@ pub struct Packed<'a> {
 
 /// The nodes and leaves that wait while a packed tree is walked: the ticks at which each is
 /// entered in the upper half, its place in the lower one, so that the nearer is the smaller.
-/// Depth beyond its room is cut off when the tree is built.
+/// Depth beyond [`PACKED_STACK`] is cut off when the tree is built; [`Packed::waiting`] tells how much less
+/// room does.
 #[derive(Clone, Copy, Debug)]
-pub struct PackedStack([u32; PACKED_STACK]);
+pub struct PackedStack<const ROOM: usize = PACKED_STACK>([u32; ROOM]);
 
-/// Room of a [`PackedStack`].
+/// Room of a [`PackedStack`] that does for any tree.
 pub const PACKED_STACK: usize = 64;
 /// The deepest tree whose walk fits it: every level leaves seven behind.
 const DEEPEST: u32 = (PACKED_STACK as u32 - 8) / 7;
 
-impl Default for PackedStack {
+impl<const ROOM: usize> Default for PackedStack<ROOM> {
     fn default() -> Self {
-        Self([0; PACKED_STACK])
+        Self([0; ROOM])
     }
 }
 
@@ -367,7 +368,28 @@ impl Slab {
     }
 }
 
-impl Packed<'_> {
+impl<const ROOM: usize> Packed<'_, ROOM> {
+    /// The most nodes and leaves that can ever wait, whatever the ray: the room that a stack needs.
+    pub fn waiting(&self) -> usize {
+        self.waiting_below(0, DEEPEST)
+    }
+
+    /// The same below a node: all its children, or all but one while that one is walked.
+    fn waiting_below(&self, at: usize, levels: u32) -> usize {
+        let Some(header) = Header::read(self.words, at).filter(|_| levels > 0) else {
+            return 0;
+        };
+        let first = at + HEADER;
+        let children = self.words.get(first..first + header.count * CHILD);
+        let place = |&[low, high]: &[u32; CHILD]| low >> 24 | high >> 24 << 8;
+        let below = (children.unwrap_or_default().as_chunks::<CHILD>().0.iter())
+            .map(place)
+            .filter(|place| place & LEAF == 0)
+            .map(|place| self.waiting_below(place as usize * CHILD, levels - 1))
+            .max();
+        header.count - 1 + below.unwrap_or(0).max(1)
+    }
+
     /// How far objects are looked for, in ticks, rounded up.
     #[inline(always)]
     fn ticks(&self, limit: i32) -> i32 {
@@ -378,7 +400,7 @@ impl Packed<'_> {
     fn walk<S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs>(
         &self,
         search: &mut Search<'_, S, O, ANY, NEEDS>,
-        stack: &mut PackedStack,
+        stack: &mut PackedStack<ROOM>,
     ) {
         let (o, d) = (search.ray.origin, search.ray.direction);
         let along = [
@@ -394,7 +416,7 @@ impl Packed<'_> {
         let mut at = 0;
         let mut waiting = 0usize;
         while let Some(header) = Header::read(self.words, at) {
-            search.observer.step();
+            search.observer.step(header.count);
             let [x, y, z] = [0, 1, 2].map(|i| along[i].at(&header, i));
             let base = waiting;
             let first = at + HEADER;
@@ -406,7 +428,7 @@ impl Packed<'_> {
                 let met = x.clip(near & 255, far & 255, &mut enter, &mut exit)
                     && y.clip(near >> 8 & 255, far >> 8 & 255, &mut enter, &mut exit)
                     && z.clip(near >> 16 & 255, far >> 16 & 255, &mut enter, &mut exit);
-                if !met || waiting >= PACKED_STACK {
+                if !met || waiting >= ROOM {
                     continue;
                 }
                 let place = low >> 24 | high >> 24 << 8;
@@ -444,15 +466,15 @@ impl Packed<'_> {
     }
 }
 
-impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Packed<'_> {
-    type Stack = PackedStack;
+impl<S: Scalar, const NEEDS: Needs, const ROOM: usize> Accelerator<S, NEEDS> for Packed<'_, ROOM> {
+    type Stack = PackedStack<ROOM>;
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
         scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
-        stack: &mut PackedStack,
+        stack: &mut PackedStack<ROOM>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
         let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
@@ -466,7 +488,7 @@ impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Packed<'_> {
         scene: &Scene<'_, S, NEEDS>,
         ray: &Ray<S>,
         limit: S,
-        stack: &mut PackedStack,
+        stack: &mut PackedStack<ROOM>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
         let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);

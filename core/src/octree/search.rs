@@ -39,8 +39,9 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
     #[inline(always)]
     pub(super) fn list(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
-            self.observer.test();
-            if let Some(t) = self.scene.shapes.hit(object, self.ray, self.limit) {
+            let hit = self.scene.shapes.hit(object, self.ray, self.limit);
+            self.observer.test(object.kind(), hit.is_some());
+            if let Some(t) = hit {
                 if ANY {
                     self.found = Some(object);
                     return true;

@@ -230,7 +230,7 @@ impl<P: Plane> Tight<'_, P> {
         let walk = Walk::new(search.ray);
         let mut waiting = 0u8;
         loop {
-            search.observer.step();
+            search.observer.step(WIDTH);
             let limit = search.limit.plane();
             let (entry, mut met) = P::clip(walk.faces(node), walk.origin, &walk.slope, limit);
             let mut next = None;

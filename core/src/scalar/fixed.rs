@@ -394,10 +394,15 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
 impl<const F: u32, const CHECKED: bool> Quantize for Fixed<F, CHECKED> {
     const NAME: &'static str = match F {
         8 => "i24f8",
+        10 => "i22f10",
         12 => "i20f12",
+        14 => "i18f14",
         16 => "i16f16",
+        18 => "i14f18",
         20 => "i12f20",
+        22 => "i10f22",
         24 => "i8f24",
+        26 => "i6f26",
         28 => "i4f28",
         _ => "fixed",
     };

@@ -15,11 +15,11 @@ mod riscv;
 #[expect(dead_code, reason = "pictures have a hash")]
 mod tell;
 
-use crate::baked::{S, SCENE, TREE};
+use crate::baked::{S, SCENE, TREE, Tree};
 use core::hint::black_box;
 use inputs::{NARROW, WIDE, aimed, numbers, pairs, vectors};
-use kernels::{Shapes, Walk};
-use octray_core::octree::{Accelerator, Packed, PackedStack};
+use kernels::{Shapes, Stack, Walk};
+use octray_core::octree::Accelerator;
 use octray_core::ray::Ray;
 use octray_core::shape::{Kind, ObjectRef};
 use octray_firmware_sim::tally::Tally;
@@ -102,12 +102,12 @@ fn tree() -> u32 {
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
     // A node is two words and two for each child; the upper bits of the second tell how many.
     let size = tree.words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
-    let trunk = Packed {
+    let trunk = Tree {
         words: tree.words.get(..size as usize).unwrap_or_default(),
         ..*tree
     };
     let trunk = black_box(&trunk);
-    let mut stack = PackedStack::default();
+    let mut stack = Stack::default();
     let mut steps = 0;
     for ray in scene.shapes.refs().flat_map(|object| aimed(object, WIDE)) {
         let mut tally = Tally::default();

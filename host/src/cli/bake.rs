@@ -3,7 +3,7 @@
 use super::value;
 use crate::bake::{BakeJob, TreeKind};
 use crate::error::Error;
-use crate::job::{Arith, DEEPEST};
+use crate::job::{Arith, DEEPEST, PixelsPerRay};
 use clap::{Args, value_parser};
 use std::num::NonZeroU32;
 use std::path::PathBuf;
@@ -21,6 +21,9 @@ pub struct BakeArgs {
     /// Columns and rows; the framing stays [default: the scene's own]
     #[arg(long, value_name = "WxH", value_parser = value::size)]
     size: Option<(u32, u32)>,
+    /// Pixels that one ray colours: 1, or 4 in squares of two by two
+    #[arg(long, value_name = "N", value_enum, default_value_t)]
+    pixels_per_ray: PixelsPerRay,
     /// The tree to bake
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     tree: TreeKind,
@@ -33,6 +36,9 @@ pub struct BakeArgs {
     /// Objects up to which a node of the tree is not divided
     #[arg(long, value_name = "N", default_value = "2", value_parser = value::positive::<NonZeroU32>)]
     leaf_size: NonZeroU32,
+    /// All of this as `octray plan --emit` has written it
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["arith", "size", "pixels_per_ray", "tree", "max_depth", "cut_off", "leaf_size"])]
+    plan: Option<PathBuf>,
     /// The Rust source [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -52,10 +58,12 @@ impl BakeArgs {
             scene: self.scene,
             arith: self.arith,
             size: self.size,
+            pixels_per_ray: self.pixels_per_ray,
             tree: self.tree,
             max_depth: self.max_depth,
             cut_off: self.cut_off,
             leaf_size: self.leaf_size.get(),
+            plan: self.plan,
             output: self.output,
         })
     }

@@ -71,7 +71,7 @@ impl<'a> Leader<'a> {
         let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
         let build = begin.elapsed();
         let begin = Instant::now();
-        let (mut picture, region) = trace::blank(&*engine, job)?;
+        let (mut picture, region) = trace::blank(&*engine, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
         let before = scalar::saturations();

@@ -6,9 +6,9 @@ use crate::quantise::limits;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 
 /// The names that [`bake`] knows, besides `auto`.
-pub const FORMATS: [&str; 12] = [
-    "f64", "f32", "approx0", "approx1", "approx2", "i24f8", "i20f12", "i16f16", "i12f20", "i8f24",
-    "i4f28", "i32f32",
+pub const FORMATS: [&str; 17] = [
+    "f64", "f32", "approx0", "approx1", "approx2", "i24f8", "i22f10", "i20f12", "i18f14", "i16f16",
+    "i14f18", "i12f20", "i10f22", "i8f24", "i6f26", "i4f28", "i32f32",
 ];
 
 /// Bakes a scene in the arithmetic of that name; `auto` is the 32-bit fixed point with the most
@@ -25,10 +25,15 @@ pub fn bake(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<Baked, 
         "approx1" => bake_as::<Approx<1>>,
         "approx2" => bake_as::<Approx<2>>,
         "i24f8" => bake_as::<Fixed<8, false>>,
+        "i22f10" => bake_as::<Fixed<10, false>>,
         "i20f12" => bake_as::<Fixed<12, false>>,
+        "i18f14" => bake_as::<Fixed<14, false>>,
         "i16f16" => bake_as::<Fixed<16, false>>,
+        "i14f18" => bake_as::<Fixed<18, false>>,
         "i12f20" => bake_as::<Fixed<20, false>>,
+        "i10f22" => bake_as::<Fixed<22, false>>,
         "i8f24" => bake_as::<Fixed<24, false>>,
+        "i6f26" => bake_as::<Fixed<26, false>>,
         "i4f28" => bake_as::<Fixed<28, false>>,
         "i32f32" => bake_as::<Fixed64>,
         unknown => return Err(BakeError::Unknown(unknown.into())),

@@ -29,8 +29,8 @@ pub(super) struct Tables<'a, S: Literal> {
 pub(super) enum Tree {
     /// A list of all.
     None,
-    /// The packed tree's nodes and its tick.
-    Packed(Vec<u32>, u32),
+    /// The packed tree's nodes, its tick, and how many nodes can wait while it is walked.
+    Packed(Vec<u32>, u32, usize),
     /// The number of words that a tree grown like this takes.
     Device(usize, octree::Options),
 }
@@ -38,8 +38,25 @@ pub(super) enum Tree {
 impl Tree {
     fn words(&self) -> &[u32] {
         match self {
-            Self::Packed(words, _) => words,
+            Self::Packed(words, ..) => words,
             _ => &[],
+        }
+    }
+
+    /// Nodes that can wait while it is walked.
+    pub(super) fn nodes(&self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Packed(_, _, nodes) => *nodes,
+            Self::Device(..) => octree::PACKED_STACK,
+        }
+    }
+
+    /// Words that it takes, here or on the device.
+    pub(super) fn room(&self) -> usize {
+        match self {
+            Self::Device(words, _) => *words,
+            _ => self.words().len(),
         }
     }
 }
@@ -122,7 +139,7 @@ impl<S: Literal> Display for Tables<'_, S> {
         )?;
         let tree = match &self.tree {
             Tree::None => "octree::List(&LINKS)".into(),
-            Tree::Packed(_, tick) => {
+            Tree::Packed(_, tick, _) => {
                 format!("octree::Packed {{ words: &WORDS, links: &LINKS, tick: {tick} }}")
             }
             Tree::Device(..) => String::new(),
@@ -145,8 +162,9 @@ impl<S: Literal> Tables<'_, S> {
         let raw = S::RAW;
         let parts = self.prepared.frame.parts();
         let tree = match self.tree {
-            Tree::None => "octree::List<'static>",
-            Tree::Packed(..) | Tree::Device(..) => "octree::Packed<'static>",
+            Tree::None => "octree::List<'static>".into(),
+            Tree::Packed(_, _, nodes) => format!("octree::Packed<'static, {nodes}>"),
+            Tree::Device(..) => "octree::Packed<'static>".into(),
         };
         let device = match &self.tree {
             Tree::Device(words, octree::Options { depth, leaf_size }) => format!(

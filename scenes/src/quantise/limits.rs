@@ -35,55 +35,68 @@ impl fmt::Display for Overflow {
 
 impl std::error::Error for Overflow {}
 
+/// How large something can become that is computed from a scene's colours and coefficients.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// What.
+    pub what: String,
+    /// How large, at most.
+    pub value: f64,
+}
+
+/// The bounds of all that cannot be scaled, for rays that bounce at most `max_depth` times.
+pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
+    let mut bounds = Vec::new();
+    let mut bound = |value, what| bounds.push(Bound { what, value });
+    let largest = |c: [f64; 3]| c.into_iter().fold(0.0, f64::max);
+    bound(largest(scene.background), "the background".into());
+    for (i, light) in scene.lights.iter().enumerate() {
+        let what = format!("the brightness of light {}", i + 1);
+        bound(largest(light.colour), what);
+    }
+    for (i, surface) in scene.surfaces.iter().enumerate() {
+        let name = |what: &str| format!("{what} of surface {}", i + 1);
+        let response = [0, 1, 2].map(|c| surface.diffuse[c] + surface.specular[c]);
+        bound(largest(response), name("diffuse and specular light"));
+        let lit = [0, 1, 2].map(|c| {
+            let light: f64 = scene.lights.iter().map(|l| l.colour[c]).sum();
+            surface.ambient[c] + light * response[c]
+        });
+        bound(largest(lit), name("the light"));
+        let bend = surface.ior.max(1.0 / surface.ior);
+        bound(bend * bend, name("the square of the refraction index"));
+        let share = surface.reflect.max(surface.refract);
+        let weight = share.max(1.0).powi(max_depth.min(1000) as i32);
+        bound(weight, name("the weight of reflected rays"));
+        // A contribution is at most this before it is added up and clamped.
+        bound(weight * largest(lit), name("the reflected light"));
+    }
+    bounds
+}
+
 /// Checks that nothing that is computed from the scene's colours and coefficients overflows.
 ///
 /// # Errors
 /// The first value that would.
 pub fn limits<S: Quantize>(scene: &Scene, max_depth: u32) -> Result<(), Overflow> {
-    let limit = S::MAX.to_f64() * (1.0 - 1e-6);
-    let floating = S::FRACTION_BITS.is_none();
-    let check = |value: f64, what: &dyn Fn() -> String| {
-        if value < limit {
-            return Ok(());
-        }
-        Err(Overflow {
-            format: S::NAME,
-            what: what(),
-            value,
-            limit: S::MAX.to_f64(),
-        })
+    let overflow = |what, value, limit| Overflow {
+        format: S::NAME,
+        what,
+        value,
+        limit,
     };
-    let largest = |c: [f64; 3]| c.into_iter().fold(0.0, f64::max);
-    check(largest(scene.background), &|| "the background".into())?;
-    for (i, light) in scene.lights.iter().enumerate() {
-        check(largest(light.colour), &|| {
-            format!("the brightness of light {}", i + 1)
-        })?;
-    }
-    for (i, surface) in scene.surfaces.iter().enumerate() {
-        let name = |what: &str| format!("{what} of surface {}", i + 1);
-        let response = [0, 1, 2].map(|c| surface.diffuse[c] + surface.specular[c]);
-        check(largest(response), &|| name("diffuse and specular light"))?;
-        let lit = [0, 1, 2].map(|c| {
-            let light: f64 = scene.lights.iter().map(|l| l.colour[c]).sum();
-            surface.ambient[c] + light * response[c]
-        });
-        check(largest(lit), &|| name("the light"))?;
-        let bend = surface.ior.max(1.0 / surface.ior);
-        check(bend * bend, &|| name("the square of the refraction index"))?;
-        let share = surface.reflect.max(surface.refract);
-        let weight = share.max(1.0).powi(max_depth.min(1000) as i32);
-        check(weight, &|| name("the weight of reflected rays"))?;
-        // A contribution is at most this before it is added up and clamped.
-        check(weight * largest(lit), &|| name("the reflected light"))?;
-        if !floating && surface.refract > 1.0 {
-            return Err(Overflow {
-                format: S::NAME,
-                what: name("the transmitted share"),
-                value: surface.refract,
-                limit: 1.0,
-            });
+    let limit = S::MAX.to_f64();
+    for Bound { what, value } in bounds(scene, max_depth) {
+        if value >= limit * (1.0 - 1e-6) {
+            return Err(overflow(what, value, limit));
         }
+    }
+    let floating = S::FRACTION_BITS.is_none();
+    // Only floats take a surface that lets more light through than it gets.
+    let heavy = (scene.surfaces.iter()).position(|surface| !floating && surface.refract > 1.0);
+    if let Some(i) = heavy {
+        let what = format!("the transmitted share of surface {}", i + 1);
+        return Err(overflow(what, scene.surfaces[i].refract, 1.0));
     }
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! The kernels. Each is a function of its own, found by its name. Numbers come and go in registers,
 //! vectors and rays in memory.
 
-use crate::baked::{NEEDS, S, SCENE};
+use crate::baked::{NEEDS, S, SCENE, Tree};
 use core::hint::black_box;
 use octray_core::observe::Observer;
-use octray_core::octree::{Accelerator, Hit, Packed, PackedStack};
+use octray_core::octree::{Accelerator, Hit};
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
 use octray_core::scene;
@@ -17,7 +17,8 @@ pub(super) type Shapes = shape::Shapes<'static, S, NEEDS>;
 pub(super) type Dot = fn(&Vec3<S>, &Vec3<S>) -> S;
 pub(super) type Unit = fn(&Vec3<S>) -> Vec3<S>;
 pub(super) type Found = Option<Hit<S>>;
-pub(super) type Walk = fn(&Packed<'_>, &Ray<S>, &mut PackedStack) -> Found;
+pub(super) type Stack = <Tree as Accelerator<S, NEEDS>>::Stack;
+pub(super) type Walk = fn(&Tree, &Ray<S>, &mut Stack) -> Found;
 pub(super) type Lit = fn(&Scene, ObjectRef, &Ray<S>) -> Vec3<S>;
 
 /// Nothing but the return.
@@ -93,14 +94,14 @@ fn hit(shapes: &Shapes, kind: Kind, i: usize, ray: &Ray<S>) -> Option<S> {
 
 /// A search from end to end. The barrier, and the other's, keep the two from being one function.
 #[inline(never)]
-pub(super) fn kernel_walk(tree: &Packed<'_>, ray: &Ray<S>, stack: &mut PackedStack) -> Found {
+pub(super) fn kernel_walk(tree: &Tree, ray: &Ray<S>, stack: &mut Stack) -> Found {
     black_box(1u32);
     tree.nearest(&SCENE, ray, stack, &mut ())
 }
 
 /// The same, for a tree of which there is nothing but the root.
 #[inline(never)]
-pub(super) fn kernel_root(tree: &Packed<'_>, ray: &Ray<S>, stack: &mut PackedStack) -> Found {
+pub(super) fn kernel_root(tree: &Tree, ray: &Ray<S>, stack: &mut Stack) -> Found {
     black_box(2u32);
     tree.nearest(&SCENE, ray, stack, &mut ())
 }

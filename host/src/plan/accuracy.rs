@@ -1,0 +1,270 @@
+//! What a picture needs to be accurate enough, whatever computes it: bounces, pixels per ray, and in each
+//! family of numbers the narrowest format. Found by rendering.
+
+use super::events::{Events, Probe};
+use super::job::Numbers;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::job::DEEPEST;
+use crate::metric::Difference;
+use crate::picture::Picture;
+use octray_core::octree;
+use octray_scenes::bake::Tree;
+use octray_scenes::model::Scene;
+use octray_scenes::plan::Plan;
+use octray_scenes::quantise::{Bound, bounds};
+use serde::Serialize;
+
+/// Rays of less weight are not traced: it is less than half a level.
+const CUT_OFF: f64 = 1.0 / 512.0;
+
+/// The packed tree that pictures are compared with; all trees give the same.
+const TREE: Tree = Tree::Packed(octree::Options {
+    depth: 24,
+    leaf_size: 2,
+});
+
+/// 32-bit fixed point with an even number of fraction bits, the narrowest fraction first.
+pub const FORMATS: [(&str, u32); 11] = [
+    ("i24f8", 8),
+    ("i22f10", 10),
+    ("i20f12", 12),
+    ("i18f14", 14),
+    ("i16f16", 16),
+    ("i14f18", 18),
+    ("i12f20", 20),
+    ("i10f22", 22),
+    ("i8f24", 24),
+    ("i6f26", 26),
+    ("i4f28", 28),
+];
+
+/// The scene, and the picture to come close to.
+#[derive(Debug)]
+pub struct Scope<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Columns and rows.
+    pub size: (u32, u32),
+    /// The least distance from the exact picture, in dB.
+    pub min_psnr: f64,
+    /// Asks to stop.
+    pub interrupt: &'a Interrupt,
+}
+
+/// What the picture needs.
+#[derive(Clone, Debug)]
+pub struct Accuracy {
+    /// In 64-bit floats, with as many bounces as there can be.
+    pub exact: Picture,
+    /// The fewest bounces with which the picture is the exact one.
+    pub depth: u32,
+    /// What happens then, in 64-bit floats.
+    pub full: Events,
+    /// What happens with one bounce less, and the distance; none if there are no bounces.
+    pub shallower: Option<(Events, f64)>,
+    /// What happens with one ray for four pixels, and the distance.
+    pub coarse: (Events, f64),
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: u32,
+    /// The largest number that the scene can lead to.
+    pub largest: Bound,
+    /// Bits before the point that it takes.
+    pub integer_bits: u32,
+    /// Every arithmetic that was tried, the finest first.
+    pub tried: Vec<Tried>,
+}
+
+/// An arithmetic, and how far its picture is from the exact one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tried {
+    /// Its name.
+    pub format: &'static str,
+    /// Bits behind the point; none for floats.
+    pub fraction_bits: Option<u32>,
+    /// In dB; none if it is the same picture.
+    pub psnr: Option<f64>,
+    /// What it is too coarse for, if anything.
+    pub too_fine: Option<String>,
+    /// Whether that is accurate enough, nothing is too fine, and nothing overflows.
+    pub does: bool,
+}
+
+impl Scope<'_> {
+    /// What the picture needs, when only some arithmetics come into question.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if the scene is too large for a packed tree; [`Error::Interrupted`].
+    pub fn accuracy(&self, numbers: Numbers) -> Result<Accuracy, Error> {
+        let exact = self.render(&self.plan("f64", 1, DEEPEST))?.picture;
+        let depth = self.depth(&exact)?;
+        let full = self.render(&self.plan("f64", 1, depth))?.events;
+        let shallower = match depth.checked_sub(1) {
+            None => None,
+            Some(less) => {
+                let probe = self.render(&self.plan("f64", 1, less))?;
+                Some((probe.events, psnr(&exact, &probe.picture)?))
+            }
+        };
+        let coarse = self.render(&self.plan("f64", 4, depth))?;
+        let coarse_psnr = psnr(&exact, &coarse.picture)?;
+        let all = bounds(self.scene, depth).into_iter();
+        let largest = all
+            .max_by(|a, b| a.value.total_cmp(&b.value))
+            .unwrap_or(Bound {
+                what: "a direction".into(),
+                value: 1.0,
+            });
+        let mut accuracy = Accuracy {
+            exact,
+            depth,
+            full,
+            shallower,
+            coarse: (coarse.events, coarse_psnr),
+            pixels_per_ray: 1,
+            integer_bits: integer_bits(largest.value),
+            largest,
+            tried: Vec::new(),
+        };
+        if coarse_psnr >= self.min_psnr {
+            accuracy.pixels_per_ray = 4;
+            self.formats(&mut accuracy, numbers)?;
+        }
+        if !accuracy.tried.iter().any(|tried| tried.does) {
+            accuracy.pixels_per_ray = 1;
+            self.formats(&mut accuracy, numbers)?;
+        }
+        Ok(accuracy)
+    }
+
+    /// A plan with a tree like any other, and room for all rays.
+    pub fn plan(&self, arith: &'static str, pixels_per_ray: u32, max_depth: u32) -> Plan {
+        Plan {
+            arith,
+            size: self.size,
+            pixels_per_ray,
+            max_depth,
+            cut_off: CUT_OFF,
+            tree: TREE,
+            rays: max_depth as usize + 1,
+        }
+    }
+
+    /// Renders a plan.
+    ///
+    /// # Errors
+    /// As [`Probe::render`].
+    pub fn render(&self, plan: &Plan) -> Result<Probe, Error> {
+        Probe::render(self.scene, plan, self.interrupt)
+    }
+
+    /// The fewest bounces with which the picture is the exact one. More bounces only add light, so that no
+    /// level goes back, and between here and there nothing can have changed.
+    fn depth(&self, exact: &Picture) -> Result<u32, Error> {
+        let (mut low, mut high) = (0, DEEPEST);
+        // Few scenes need many bounces: the steps grow before they shrink.
+        let mut step = 1;
+        while low < high {
+            let middle = (low + step - 1).min((low + high) / 2);
+            let probe = self.render(&self.plan("f64", 1, middle))?;
+            match Difference::between(exact, &probe.picture)?.is_zero() {
+                true => high = middle,
+                false => (low, step) = (middle + 1, 2 * step),
+            }
+        }
+        Ok(low)
+    }
+
+    /// Tries floats, and fixed point from the finest format to the first one that does not do.
+    fn formats(&self, accuracy: &mut Accuracy, numbers: Numbers) -> Result<(), Error> {
+        accuracy.tried.clear();
+        if numbers != Numbers::Fixed {
+            accuracy.tried.push(self.attempt(accuracy, "f32", None)?);
+        }
+        let room = 31u32.saturating_sub(accuracy.integer_bits);
+        let fixed = FORMATS.iter().rev().filter(|(_, bits)| *bits <= room);
+        for &(format, bits) in fixed.filter(|_| numbers != Numbers::F32) {
+            let tried = self.attempt(accuracy, format, Some(bits));
+            let tried = match tried {
+                // Bounds that hold for all of fixed point: a surface lets more light through than it gets.
+                Err(Error::Failed(_)) => return Ok(()),
+                tried => tried?,
+            };
+            let does = tried.does;
+            accuracy.tried.push(tried);
+            if !does {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn attempt(
+        &self,
+        accuracy: &Accuracy,
+        format: &'static str,
+        fraction_bits: Option<u32>,
+    ) -> Result<Tried, Error> {
+        let probe = self.render(&self.plan(format, accuracy.pixels_per_ray, accuracy.depth))?;
+        let psnr = psnr(&accuracy.exact, &probe.picture)?;
+        Ok(Tried {
+            format,
+            fraction_bits,
+            psnr: psnr.is_finite().then_some(psnr),
+            does: psnr >= self.min_psnr && probe.too_fine.is_none() && probe.saturations == 0,
+            too_fine: probe.too_fine,
+        })
+    }
+}
+
+impl Accuracy {
+    /// The narrowest format of each family that does.
+    pub fn narrowest(&self) -> impl Iterator<Item = &Tried> {
+        let of = |fixed: bool| {
+            let mut tried = self.tried.iter();
+            tried.rfind(|tried| tried.fraction_bits.is_some() == fixed && tried.does)
+        };
+        [of(true), of(false)].into_iter().flatten()
+    }
+
+    /// The one that comes closest to the exact picture, of those that nothing is too fine for if there are any.
+    pub fn closest(&self) -> Option<&Tried> {
+        let distance = |tried: &Tried| tried.psnr.unwrap_or(f64::INFINITY);
+        (self.tried.iter()).max_by(|a, b| {
+            let resolves = [a, b].map(|tried| tried.too_fine.is_none());
+            let further = distance(a).total_cmp(&distance(b));
+            resolves[0].cmp(&resolves[1]).then(further)
+        })
+    }
+}
+
+/// The fewest bits before the point with which a format holds a number.
+fn integer_bits(largest: f64) -> u32 {
+    (0..31)
+        .find(|bits| largest < f64::from(1u32 << bits) * (1.0 - 1e-6))
+        .unwrap_or(31)
+}
+
+fn psnr(exact: &Picture, picture: &Picture) -> Result<f64, Error> {
+    Difference::between(exact, picture).map(|difference| difference.psnr())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_before_the_point_hold_what_is_below_their_power() {
+        for (largest, bits) in [
+            (0.0, 0),
+            (0.5, 0),
+            (1.0, 1),
+            (1.5, 1),
+            (5.2, 3),
+            (8.0, 4),
+            (1e12, 31),
+        ] {
+            assert_eq!(integer_bits(largest), bits, "{largest}");
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! What was measured for the model: lines of `octray measure --csv`, and the scenes they name.
+
+use super::events::{Events, Probe};
+use super::model::{Family, Parts, Weights};
+use crate::check;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::measure::board::{BOARDS, Board};
+use octray_core::octree;
+use octray_scenes::bake::{Baked, Tree, bake};
+use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::model::Scene;
+use octray_scenes::plan::Plan;
+use serde::Deserialize;
+use std::io::Read;
+use std::path::Path;
+
+/// Where the random numbers of generated scenes start.
+pub const SEED: u64 = 7;
+
+/// A line of the record.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Line {
+    /// A file of `scenes/`, or a kind and a number of objects such as `soup-60`.
+    pub scene: String,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// The most bounces.
+    pub max_depth: u32,
+    /// The board.
+    pub board: String,
+    /// The number format.
+    pub format: String,
+    /// The tree, `packed` or `none`.
+    pub tree: String,
+    /// Instructions of the frame.
+    pub instructions: f64,
+    /// Rays that look for the closest hit.
+    pub closest_rays: f64,
+    /// Instructions of each of their searches.
+    pub per_closest_ray: Option<f64>,
+    /// Shadow rays.
+    pub shadow_rays: f64,
+    /// Instructions of each of their searches.
+    pub per_shadow_ray: Option<f64>,
+    /// Bytes of code and constants.
+    pub flash: f64,
+    /// Bytes of variables.
+    pub ram: f64,
+    /// Bytes of the deepest stack.
+    pub stack: f64,
+}
+
+/// A line, and what the host knows of its frame.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The line.
+    pub line: Line,
+    /// The board.
+    pub board: &'static Board,
+    /// What kind of numbers it is.
+    pub family: Family,
+    /// What was counted.
+    pub events: Events,
+    /// What finds the objects.
+    pub tree: Tree,
+    /// What was baked.
+    pub baked: Baked,
+    /// How much memory it takes besides code and frames of functions.
+    pub lent: Parts,
+}
+
+impl Sample {
+    /// By how much of themselves predicted instructions, flash and RAM are too large.
+    pub fn errors(&self, weights: &Weights) -> [f64; 3] {
+        let predicted = weights.predict(&self.events, &self.baked, self.tree, self.lent);
+        [
+            predicted.instructions / self.line.instructions - 1.0,
+            predicted.flash() as f64 / self.line.flash - 1.0,
+            predicted.ram() as f64 / (self.line.ram + self.line.stack) - 1.0,
+        ]
+    }
+}
+
+/// All lines of a record.
+///
+/// # Errors
+/// If it is no record.
+pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
+    let mut lines = Vec::new();
+    for line in csv::Reader::from_reader(record).into_deserialize() {
+        lines
+            .push(line.map_err(|why| Error::Failed(format!("the record of measurements: {why}")))?);
+    }
+    Ok(lines)
+}
+
+/// The scene that a record names.
+///
+/// # Errors
+/// If there is none.
+pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
+    let generated = name.split_once('-').and_then(|(kind, objects)| {
+        let kind = Kind::ALL.into_iter().find(|known| known.name() == kind)?;
+        let objects = objects.parse().ok()?;
+        Some(generate(Spec { kind, objects }, SEED))
+    });
+    match generated {
+        Some(scene) => Ok(scene),
+        None => check::read(&folder.join(name).with_extension("scene")),
+    }
+}
+
+impl Line {
+    /// The plan that this measures.
+    ///
+    /// # Errors
+    /// If there is no such format or tree.
+    pub fn plan(&self, scene: &Scene) -> Result<Plan, Error> {
+        let unknown = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
+        let formats = octray_scenes::bake::FORMATS;
+        // As the firmware's build script chooses it.
+        let board = (BOARDS.iter()).find(|board| board.name == self.board);
+        let dear = board.is_some_and(|board| {
+            let emulated = !board.fpu && Family::of(&self.format) == Family::F32;
+            emulated || board.target.starts_with("thumbv6m")
+        });
+        let options = octree::Options {
+            depth: 24,
+            leaf_size: if dear { 1 } else { 2 },
+        };
+        let mut plan = Plan {
+            arith: (formats.into_iter().find(|name| *name == self.format))
+                .ok_or_else(|| unknown(&self.format))?,
+            size: (self.width, self.height),
+            pixels_per_ray: 1,
+            max_depth: self.max_depth,
+            cut_off: 1.0 / 512.0,
+            tree: match &*self.tree {
+                "packed" => Tree::Packed(options),
+                "none" => Tree::None,
+                other => return Err(unknown(other)),
+            },
+            rays: 0,
+        };
+        let options = octray_scenes::bake::Options {
+            rays: None,
+            ..plan.options("")
+        };
+        let baked = bake(scene, plan.arith, &options).map_err(|why| unknown(&why.to_string()))?;
+        plan.rays = baked.rays;
+        Ok(plan)
+    }
+
+    /// What the host knows of it.
+    ///
+    /// # Errors
+    /// If scene, board or format are unknown; [`Error::Interrupted`].
+    pub fn sample(self, folder: &Path, interrupt: &Interrupt) -> Result<Sample, Error> {
+        let scene = scene(&self.scene, folder)?;
+        let plan = self.plan(&scene)?;
+        let probe = Probe::render(&scene, &plan, interrupt)?;
+        let failed = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
+        let baked =
+            bake(&scene, plan.arith, &plan.options("")).map_err(|why| failed(&why.to_string()))?;
+        let board = (BOARDS.iter())
+            .find(|board| board.name == self.board)
+            .ok_or_else(|| failed(&self.board))?;
+        Ok(Sample {
+            family: Family::of(plan.arith),
+            board,
+            events: probe.events,
+            tree: plan.tree,
+            lent: Parts::of(&plan, &baked, scene.lights.len()),
+            baked,
+            line: self,
+        })
+    }
+}

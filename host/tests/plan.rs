@@ -1,0 +1,224 @@
+//! `octray plan`: its plans keep what they promise, are as small as they can be, and cost what they say.
+
+use octray::check;
+use octray::interrupt::Interrupt;
+use octray::measure::board::{BOARDS, Board};
+use octray::metric::Difference;
+use octray::plan::accuracy::FORMATS;
+use octray::plan::events::Probe;
+use octray::plan::job::{Bounds, Numbers, PlanJob, memory};
+use octray::plan::model::Model;
+use octray::plan::record;
+use octray_scenes::bake::{Tree, bake};
+use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::model::Scene;
+use octray_scenes::plan::Plan;
+use snapbox::cmd::cargo_bin;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SIZE: (u32, u32) = (40, 30);
+const MIN_PSNR: f64 = 40.0;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn board(name: &str) -> &'static Board {
+    BOARDS.iter().find(|board| board.name == name).unwrap()
+}
+
+/// The five figures, and five generated scenes.
+fn scenes() -> Vec<(String, Scene)> {
+    let figures = (19..=23).map(|number| {
+        let name = format!("figure-{number}");
+        let path = root().join("scenes").join(&name).with_extension("scene");
+        (name, check::read(&path).unwrap())
+    });
+    let generated = Kind::ALL.into_iter().map(|kind| {
+        let scene = generate(Spec { kind, objects: 30 }, 1);
+        (kind.name().to_owned(), scene)
+    });
+    figures.chain(generated).collect()
+}
+
+fn job(board: &'static Board, numbers: Numbers) -> PlanJob {
+    let (flash, ram) = memory(board);
+    PlanJob {
+        scene: "test.scene".into(),
+        board,
+        bounds: Bounds {
+            flash,
+            ram,
+            min_psnr: MIN_PSNR,
+        },
+        numbers,
+        size: Some(SIZE),
+        measure: false,
+        json: false,
+        emit: None,
+    }
+}
+
+fn render(scene: &Scene, plan: &Plan) -> Probe {
+    Probe::render(scene, plan, &Interrupt::default()).unwrap()
+}
+
+#[test]
+fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
+    for (name, scene) in scenes() {
+        let job = job(board("m3"), Numbers::Any);
+        let report = octray::plan::plan(&job, &scene, &Interrupt::default()).unwrap();
+        assert!(report.failures.is_empty(), "{name}: {:?}", report.failures);
+        let plan = report.plan.unwrap();
+        let with = |arith, pixels_per_ray, max_depth| Plan {
+            arith,
+            pixels_per_ray,
+            max_depth,
+            ..plan.clone()
+        };
+        let exact = render(&scene, &with("f64", 1, 64)).picture;
+        let psnr = |plan: &Plan| {
+            let picture = render(&scene, plan).picture;
+            Difference::between(&exact, &picture).unwrap().psnr()
+        };
+        assert!(psnr(&plan) >= MIN_PSNR, "{name}");
+        // The depth loses nothing, and one less would.
+        let depth = |depth| render(&scene, &with("f64", 1, depth)).picture == exact;
+        assert!(depth(plan.max_depth), "{name}");
+        assert!(plan.max_depth == 0 || !depth(plan.max_depth - 1), "{name}");
+        // Two bits less are too few, four pixels to a ray too coarse.
+        let at = FORMATS.iter().position(|(format, _)| *format == plan.arith);
+        if let Some((narrower, _)) = at.and_then(|at| FORMATS.get(at.checked_sub(1)?)) {
+            let narrower = with(*narrower, plan.pixels_per_ray, plan.max_depth);
+            let too_fine = render(&scene, &narrower).too_fine.is_some();
+            assert!(
+                too_fine || psnr(&narrower) < MIN_PSNR,
+                "{name}: {}",
+                plan.arith
+            );
+        }
+        if plan.pixels_per_ray == 1 {
+            assert!(psnr(&with("f64", 4, plan.max_depth)) < MIN_PSNR, "{name}");
+        }
+        // No capacity is larger than what is used: the arena, and the rays that wait.
+        let probe = render(&scene, &plan);
+        assert_eq!(plan.rays, probe.waiting, "{name}");
+        assert_eq!((probe.saturations, probe.too_fine), (0, None), "{name}");
+        if let Tree::Packed(options) = plan.tree {
+            assert_eq!(options.depth, probe.depth, "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_model_predicts_what_was_measured() {
+    let path = root().join("host/record/plan.csv");
+    let lines = record::read(fs::File::open(path).unwrap()).unwrap();
+    let model = Model::shipped().unwrap();
+    let ten = |name: &str| {
+        name.starts_with("figure-") || Kind::ALL.iter().any(|kind| name.starts_with(kind.name()))
+    };
+    let mut checked = 0;
+    for line in lines.into_iter().filter(|line| ten(&line.scene)) {
+        let sample = line
+            .sample(&root().join("scenes"), &Interrupt::default())
+            .unwrap();
+        let weights = model.of(sample.board.target, sample.family).unwrap();
+        let errors = sample.errors(weights);
+        let (scene, board, family) = (&sample.line.scene, sample.board, sample.family.name());
+        let told = format!("{scene} on {board} in {family}: {errors:.3?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.15), "{told}");
+        checked += 1;
+    }
+    assert!(checked >= 8 * 15, "{checked} frames");
+}
+
+fn octray(line: &str) -> Output {
+    let mut command = Command::new(cargo_bin!("octray"));
+    command.current_dir(root()).args(line.split_whitespace());
+    command.output().unwrap()
+}
+
+#[test]
+fn predictions_hold_on_emulated_boards() {
+    let folder = tempfile::tempdir().unwrap();
+    let soup = folder.path().join("soup.scene");
+    let mut file = fs::File::create(&soup).unwrap();
+    let (kind, objects) = (Kind::Soup, 30);
+    octray_scenes::write(&generate(Spec { kind, objects }, 1), &mut file).unwrap();
+    let soup = soup.display();
+    for line in [
+        "scenes/figure-22.scene --target m0 --arith fixed",
+        &format!("{soup} --target rv32imac --arith f32"),
+    ] {
+        let output = octray(&format!("plan {line} --size 40x30 --measure --json"));
+        let told = String::from_utf8_lossy(&output.stderr);
+        if told.contains(" is missing: ") {
+            eprintln!("skipped: {told}");
+            continue;
+        }
+        assert!(output.status.success(), "{line}: {told}");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        for error in report["trial"]["errors"].as_array().unwrap() {
+            assert!(
+                error.as_f64().unwrap().abs() < 0.15,
+                "{line}: {}",
+                report["trial"]
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_emitted_is_baked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("figure-22.plan");
+    let scene = "scenes/figure-22.scene";
+    let output = octray(&format!(
+        "plan {scene} --size 24x18 --emit {}",
+        path.display()
+    ));
+    assert!(output.status.success());
+    let plan: Plan = fs::read_to_string(&path).unwrap().parse().unwrap();
+    let baked = octray(&format!("bake {scene} --plan {}", path.display()));
+    let read = check::read(&root().join(scene)).unwrap();
+    let expected = bake(&read, plan.arith, &plan.options("figure-22")).unwrap();
+    assert_eq!(String::from_utf8(baked.stdout).unwrap(), expected.source);
+    assert_eq!(expected.rays, plan.rays);
+    // A file that is no plan, and a plan beside what it says itself.
+    let wrong = octray(&format!("bake {scene} --plan {scene}"));
+    assert_eq!(wrong.status.code(), Some(1));
+    let both = octray(&format!(
+        "bake {scene} --plan {} --arith f32",
+        path.display()
+    ));
+    assert_eq!(both.status.code(), Some(2));
+}
+
+#[test]
+fn what_does_not_fit_is_told_with_what_would() {
+    let scene = "scenes/figure-21.scene --size 64x48";
+    for (bound, expected) in [
+        ("--ram 900", "error: RAM: the nearest plan takes "),
+        ("--flash 9000", "more than 9,000; it fits with --flash "),
+        (
+            "--min-psnr 200 --arith fixed",
+            "error: PSNR: nothing reaches 200 dB",
+        ),
+    ] {
+        let output = octray(&format!("plan {scene} {bound}"));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{bound}: {told}");
+        assert!(told.contains(expected), "{bound}: {told}");
+    }
+    for line in [
+        "plan",
+        "plan a --target m1",
+        "plan a --min-psnr -1",
+        "plan a --emit a",
+    ] {
+        assert_eq!(octray(line).status.code(), Some(2), "{line}");
+    }
+}

@@ -1,0 +1,281 @@
+//! A plan: everything that is chosen about a scene before it is baked, and the small file that carries
+//! it to `octray bake --plan` and to the firmware's build.
+//!
+//! The file is text: a name and a value to a line, in any order, `#` starts a comment.
+//!
+//! ```
+//! use octray_scenes::plan::Plan;
+//!
+//! let plan: Plan = "arith i18f14\nsize 64x48\npixels-per-ray 1\nmax-depth 3\n\
+//!     cut-off 0.001953125\ntree packed\ntree-depth 2\nleaf-size 4\nrays 1\n".parse()?;
+//! assert_eq!(plan.max_depth, 3);
+//! assert_eq!(plan.to_string().parse(), Ok(plan));
+//! # Ok::<(), octray_scenes::plan::PlanError>(())
+//! ```
+
+use crate::bake::{FORMATS, Options, Tree};
+use crate::quantise::View;
+use octray_core::octree;
+use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+use thiserror::Error;
+
+/// What is chosen about a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The arithmetic, one of [`FORMATS`].
+    pub arith: &'static str,
+    /// Columns and rows, 1 to 65535 each.
+    pub size: (u32, u32),
+    /// Pixels that one ray colours, 1 or 4.
+    pub pixels_per_ray: u32,
+    /// The most bounces.
+    pub max_depth: u32,
+    /// Rays of less weight are not traced, 0 to 1.
+    pub cut_off: f64,
+    /// What finds the objects.
+    pub tree: Tree,
+    /// How many rays can wait at once.
+    pub rays: usize,
+}
+
+impl Plan {
+    /// What to bake of a scene of this name.
+    pub fn options<'a>(&self, name: &'a str) -> Options<'a> {
+        Options {
+            name,
+            view: View {
+                size: Some(self.size),
+                pixels_per_ray: self.pixels_per_ray,
+                samples: 1,
+                max_depth: self.max_depth,
+            },
+            cut_off: self.cut_off,
+            tree: self.tree,
+            rays: Some(self.rays),
+        }
+    }
+}
+
+/// As [`FromStr`] reads it.
+impl Display for Plan {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            arith,
+            size: (width, height),
+            pixels_per_ray,
+            max_depth,
+            cut_off,
+            tree,
+            rays,
+        } = self;
+        let (kind, grown) = match tree {
+            Tree::None => ("none", None),
+            Tree::Packed(grown) => ("packed", Some(grown)),
+            Tree::Device(grown) => ("device", Some(grown)),
+        };
+        write!(
+            f,
+            "arith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
+             max-depth {max_depth}\ncut-off {cut_off}\ntree {kind}\n"
+        )?;
+        if let Some(octree::Options { depth, leaf_size }) = grown {
+            write!(f, "tree-depth {depth}\nleaf-size {leaf_size}\n")?;
+        }
+        writeln!(f, "rays {rays}")
+    }
+}
+
+/// What is wrong with a plan's text.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// A line that is no name and value, or a name that is not known or not for the first time.
+    #[error("plan: unexpected line `{0}`")]
+    Line(String),
+    /// A name that is not there.
+    #[error("plan: no line tells {0}")]
+    Missing(&'static str),
+    /// A value that is none.
+    #[error("plan: {name} {found}: expected {expected}")]
+    Value {
+        /// Of which name.
+        name: &'static str,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+}
+
+impl FromStr for Plan {
+    type Err = PlanError;
+
+    fn from_str(text: &str) -> Result<Self, PlanError> {
+        let mut lines = Lines::read(text)?;
+        let whole = "a whole number";
+        let pixels = "columns x rows, each from 1 to 65535, such as 160x120";
+        let kinds = "packed, device or none";
+        let arith = lines.take("arith", "an arithmetic", |name| {
+            FORMATS.into_iter().find(|known| *known == name)
+        })?;
+        let size = lines.take("size", pixels, |text| {
+            let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
+            let (width, height) = text.split_once('x')?;
+            Some((side(width)?.into(), side(height)?.into()))
+        })?;
+        let pixels_per_ray = lines.take("pixels-per-ray", "1 or 4", |text| {
+            text.parse().ok().filter(|n| [1, 4].contains(n))
+        })?;
+        let max_depth = lines.take("max-depth", "0 to 64", |text| {
+            text.parse().ok().filter(|n| *n <= 64)
+        })?;
+        let cut_off = lines.take("cut-off", "a number from 0 to 1", |text| {
+            text.parse().ok().filter(|x| (0.0..=1.0).contains(x))
+        })?;
+        let kind = lines.take("tree", kinds, |text| Some(text.to_owned()))?;
+        let tree = match &*kind {
+            "none" => Tree::None,
+            "packed" | "device" => {
+                let options = octree::Options {
+                    depth: lines.take("tree-depth", whole, |text| text.parse().ok())?,
+                    leaf_size: lines.take("leaf-size", whole, |text| text.parse().ok())?,
+                };
+                match &*kind {
+                    "packed" => Tree::Packed(options),
+                    _ => Tree::Device(options),
+                }
+            }
+            _ => {
+                return Err(PlanError::Value {
+                    name: "tree",
+                    found: kind,
+                    expected: kinds,
+                });
+            }
+        };
+        let rays = lines.take("rays", "0 to 65", |text| {
+            text.parse().ok().filter(|n| *n <= 65)
+        })?;
+        match lines.0.pop_first() {
+            Some((name, value)) => Err(PlanError::Line(format!("{name} {value}"))),
+            None => Ok(Self {
+                arith,
+                size,
+                pixels_per_ray,
+                max_depth,
+                cut_off,
+                tree,
+                rays,
+            }),
+        }
+    }
+}
+
+/// Names and values that have not been taken yet.
+struct Lines<'a>(BTreeMap<&'a str, &'a str>);
+
+impl<'a> Lines<'a> {
+    fn read(text: &'a str) -> Result<Self, PlanError> {
+        let mut found = BTreeMap::new();
+        let lines = (text.lines()).map(|line| line.split('#').next().unwrap_or_default().trim());
+        for line in lines.filter(|line| !line.is_empty()) {
+            let known =
+                (line.split_once(' ')).map(|(name, value)| found.insert(name, value.trim()));
+            if known != Some(None) {
+                return Err(PlanError::Line(line.into()));
+            }
+        }
+        Ok(Self(found))
+    }
+
+    fn take<T>(
+        &mut self,
+        name: &'static str,
+        expected: &'static str,
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, PlanError> {
+        let found = self.0.remove(name).ok_or(PlanError::Missing(name))?;
+        read(found).ok_or_else(|| PlanError::Value {
+            name,
+            found: found.into(),
+            expected,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> Plan {
+        Plan {
+            arith: "i18f14",
+            size: (160, 120),
+            pixels_per_ray: 4,
+            max_depth: 5,
+            cut_off: 1.0 / 512.0,
+            tree: Tree::Packed(octree::Options {
+                depth: 3,
+                leaf_size: 2,
+            }),
+            rays: 2,
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let plan = example();
+        let grown = octree::Options {
+            depth: 1,
+            leaf_size: 9,
+        };
+        for tree in [Tree::None, Tree::Device(grown), plan.tree] {
+            let plan = Plan {
+                tree,
+                ..plan.clone()
+            };
+            assert_eq!(format!("# a comment\n\n{plan}").parse(), Ok(plan));
+        }
+    }
+
+    #[test]
+    fn wrong_text_is_told() {
+        let text = example().to_string();
+        let with = |line: &str, other: &str| text.replace(line, other).parse::<Plan>().unwrap_err();
+        for (line, other, told) in [
+            ("rays 2\n", "", "plan: no line tells rays"),
+            ("rays 2", "rays 2\nrays 2", "plan: unexpected line `rays 2`"),
+            (
+                "rays 2",
+                "rays 2\nmoons 3",
+                "plan: unexpected line `moons 3`",
+            ),
+            ("rays 2", "rays", "plan: unexpected line `rays`"),
+            (
+                "packed",
+                "oak",
+                "plan: tree oak: expected packed, device or none",
+            ),
+            (
+                "i18f14",
+                "i18f13",
+                "plan: arith i18f13: expected an arithmetic",
+            ),
+            (
+                "max-depth 5",
+                "max-depth 65",
+                "plan: max-depth 65: expected 0 to 64",
+            ),
+            (
+                "-ray 4",
+                "-ray 2",
+                "plan: pixels-per-ray 2: expected 1 or 4",
+            ),
+        ] {
+            assert_eq!(with(line, other).to_string(), told);
+        }
+        assert!(matches!(with("160x120", "0x3"), PlanError::Value { .. }));
+    }
+}
