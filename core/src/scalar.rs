@@ -48,6 +48,9 @@ pub trait Scalar:
     const ONE: Self;
     /// The largest finite value.
     const MAX: Self;
+    /// Whether roots and reciprocals, and with them the lengths of unit vectors, are exact but for
+    /// rounding.
+    const EXACT_ROOTS: bool;
 
     /// A product or a sum of products, twice as wide, that has not been rounded yet (floats: as
     /// wide as the number itself).

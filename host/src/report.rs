@@ -1,8 +1,8 @@
 //! `octray report`: one page with everything that octray has to show of some scenes.
 //!
-//! Each part is a section of the [`page`], in this order: [`pictures`] in every arithmetic and where they
-//! differ; [`costs`], the charts of speed against accuracy; [`boards`], table III and sizes from the newest
-//! record of `octray measure`; [`limits`], the maps of where methods fail.
+//! Each part is a section of the `page`, in this order: `pictures` in every arithmetic and where they
+//! differ; `costs`, the charts of speed against accuracy; `boards`, table III and sizes from the newest
+//! record of `octray measure`; `limits`, the maps of where methods fail.
 
 mod boards;
 mod costs;

@@ -77,6 +77,7 @@ impl<const N: u32> Scalar for Approx<N> {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
     const MAX: Self = Self(f32::MAX);
+    const EXACT_ROOTS: bool = false;
 
     type Wide = Self;
 

@@ -223,6 +223,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1 << F);
     const MAX: Self = Self(i32::MAX);
+    const EXACT_ROOTS: bool = true;
 
     type Wide = Product;
 

@@ -12,6 +12,7 @@ macro_rules! float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const MAX: Self = $t::MAX;
+            const EXACT_ROOTS: bool = true;
 
             type Wide = Self;
 

@@ -46,41 +46,12 @@ impl<S: Scalar> Cone<S> {
         }
         let w = apart.map(|c| c.to_local(self.exponent));
 
-        // cos · (distance from the axis) = cos · mid_radius + sin · height, at w + t d.
         let rise = d.dot(self.axis);
         let height = w.dot(self.axis);
-        let mid_edge = self.cos * self.mid_radius;
-        let edge = mid_edge + self.sin * height;
-        let steep = self.sin * rise;
-        // (b² − ac) / cos² as a difference of squares about as small as the radius (Lagrange's
-        // identity): b² and ac themselves are lost in coarse formats.
-        let turn = d * edge - w * steep - self.axis * (rise * mid_edge);
-        let past = self.cos * d.cross(w).dot(self.axis);
-        let discriminant = turn.square_wide() - past.square();
-        if discriminant < S::product(S::ZERO, S::ZERO) {
-            return None;
-        }
-        let root = self.cos * S::sqrt_wide(discriminant);
-        let cos_square = self.cos * self.cos;
-        let a = (self.cos - rise) * (self.cos + rise);
-        let along = S::narrow(d.dot_wide(w) - S::product(rise, height));
-        let b = S::narrow(S::product(cos_square, along) - S::product(steep, edge));
-        let (q, rest) = if b < S::ZERO {
-            (root - b, -b - root)
+        let (first, second) = if S::EXACT_ROOTS {
+            self.roots(w, d, height, rise)?
         } else {
-            (-b - root, root - b)
-        };
-
-        // Every hit lies within the bounding sphere, at |t| ≤ 1 in local scale for fixed point:
-        // compare before dividing. The smaller root is divided by what is larger: along the side
-        // a vanishes, and in a thin cone q.
-        let first = self.root(q, a);
-        let second = if a.abs() < q.abs() {
-            let apart = S::narrow(w.dot_wide(w) - S::product(height, height));
-            let c = S::product(cos_square, apart) - S::product(edge, edge);
-            self.root(S::narrow(c), q)
-        } else {
-            self.root(rest, a)
+            self.roots_by_coefficients(w, d, height, rise)?
         };
         let (first, second) = match (first, second) {
             (Some(x), Some(y)) if y < x => (second, first),
@@ -100,7 +71,73 @@ impl<S: Scalar> Cone<S> {
         None
     }
 
-    /// The quotient, if it can be within the bounding sphere's diameter.
+    /// Where the ray at `w` + t `d`, of local `height` and `rise` along the axis, may meet the side,
+    /// if it meets the double cone: where cos · (distance from the axis) is
+    /// cos · mid_radius + sin · height.
+    ///
+    /// The discriminant is a difference of squares about as small as the radius (Lagrange's
+    /// identity): those of the coefficients are lost in coarse formats, and in thin cones.
+    #[inline(always)]
+    fn roots(&self, w: Vec3<S>, d: Vec3<S>, height: S, rise: S) -> Option<(Option<S>, Option<S>)> {
+        let mid_edge = self.cos * self.mid_radius;
+        let edge = mid_edge + self.sin * height;
+        let steep = self.sin * rise;
+        let turn = d * edge - w * steep - self.axis * (rise * mid_edge);
+        let past = self.cos * d.cross(w).dot(self.axis);
+        let discriminant = turn.square_wide() - past.square();
+        if discriminant < S::product(S::ZERO, S::ZERO) {
+            return None;
+        }
+        let root = self.cos * S::sqrt_wide(discriminant);
+        let cos_square = self.cos * self.cos;
+        let a = (self.cos - rise) * (self.cos + rise);
+        let along = S::narrow(d.dot_wide(w) - S::product(rise, height));
+        let b = S::narrow(S::product(cos_square, along) - S::product(steep, edge));
+        let (q, rest) = if b < S::ZERO {
+            (root - b, -b - root)
+        } else {
+            (-b - root, root - b)
+        };
+        // The smaller root is divided by what is larger: along the side a vanishes, and in a thin
+        // cone q.
+        let second = if a.abs() < q.abs() {
+            let apart = S::narrow(w.dot_wide(w) - S::product(height, height));
+            let c = S::product(cos_square, apart) - S::product(edge, edge);
+            self.root(S::narrow(c), q)
+        } else {
+            self.root(rest, a)
+        };
+        Some((self.root(q, a), second))
+    }
+
+    /// The same from the quadratic's coefficients, its smaller root as c/q. The identity holds for
+    /// unit vectors only, and where roots are approximate there are none.
+    #[inline(always)]
+    fn roots_by_coefficients(
+        &self,
+        w: Vec3<S>,
+        d: Vec3<S>,
+        height: S,
+        rise: S,
+    ) -> Option<(Option<S>, Option<S>)> {
+        let radial = w - self.axis * height;
+        let edge = self.cos * self.mid_radius + self.sin * height;
+        let cos_square = self.cos * self.cos;
+        let a = (self.cos - rise) * (self.cos + rise);
+        let b =
+            S::narrow(S::product(cos_square, d.dot(radial)) - S::product(self.sin * rise, edge));
+        let c = S::narrow(S::product(cos_square, radial.dot(radial)) - S::product(edge, edge));
+        let discriminant = S::product(b, b) - S::product(a, c);
+        if discriminant < S::product(S::ZERO, S::ZERO) {
+            return None;
+        }
+        let root = S::sqrt_wide(discriminant);
+        let q = if b < S::ZERO { root - b } else { -b - root };
+        Some((self.root(q, a), self.root(c, q)))
+    }
+
+    /// The quotient, if it can be within the bounding sphere's diameter: every hit lies there, at
+    /// |t| ≤ 1 in local scale for fixed point, so compare before dividing.
     #[inline(always)]
     fn root(&self, numerator: S, denominator: S) -> Option<S> {
         let diameter = self.reach.to_local(self.exponent) + self.reach.to_local(self.exponent);

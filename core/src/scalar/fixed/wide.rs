@@ -97,6 +97,7 @@ impl Scalar for Fixed64 {
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1 << F);
     const MAX: Self = Self(i64::MAX);
+    const EXACT_ROOTS: bool = true;
 
     type Wide = Product;
 
