@@ -34,9 +34,11 @@ impl fmt::Display for TooFine {
 impl std::error::Error for TooFine {}
 
 /// The least share of a scene's size, and the least angle in radians, that format `S` resolves: a
-/// few times what its hits may be off by.
+/// few times what its hits may be off by; more of them where roots are approximate, which shows at
+/// the tips of cones.
 pub const fn grain<S: Quantize>() -> f64 {
-    4.0 * S::SLACK
+    let times = if S::EXACT_ROOTS { 4.0 } else { 10.0 };
+    times * S::SLACK
 }
 
 /// What errors of light may add up to along a path: eight grey levels.
