@@ -34,12 +34,13 @@ impl fmt::Display for TooFine {
 impl std::error::Error for TooFine {}
 
 /// The least share of a scene's size, and the least angle in radians, that format `S` resolves: a
-/// few times what its hits may be off by; more of them where roots are approximate, which shows at
-/// the tips of cones.
+/// few times what its hits may be off by.
 pub const fn grain<S: Quantize>() -> f64 {
-    let times = if S::EXACT_ROOTS { 4.0 } else { 10.0 };
-    times * S::SLACK
+    4.0 * S::SLACK
 }
+
+/// So many times that a pixel has to be where roots are approximate, if there are tips of cones.
+const TIP: f64 = 2.5;
 
 /// What errors of light may add up to along a path: eight grey levels.
 const LIGHT: f64 = 8.0 / 255.0;
@@ -73,7 +74,9 @@ pub fn resolution<S: Quantize>(scene: &Scene, view: &View) -> Result<(), TooFine
         true => (rays.pixel(view.size_of(scene)) / diagonal, "the scene"),
         false => (rays.pixel(view.size_of(scene)), "a radian"),
     };
-    check(pixel, grain, &|| format!("a pixel's share of {whole}"))?;
+    let tips = !S::EXACT_ROOTS && scene.objects.iter().any(|object| has_tip(&object.shape));
+    let least = if tips { TIP * grain } else { grain };
+    check(pixel, least, &|| format!("a pixel's share of {whole}"))?;
     for (i, object) in scene.objects.iter().enumerate() {
         let name = |what: &str| format!("{what} object {} as a share of the scene", i + 1);
         check(size(scene, &object.shape) / diagonal, grain, &|| {
@@ -108,6 +111,10 @@ fn path(share: f64, max_depth: u32) -> f64 {
         (LEAST_WEIGHT.ln() / share.ln()).floor()
     };
     1.0 + bounces.min(f64::from(max_depth))
+}
+
+fn has_tip(shape: &Shape) -> bool {
+    matches!(shape, Shape::Cone { base_radius, top_radius, .. } if base_radius.min(*top_radius) == 0.0)
 }
 
 /// The radius of a sphere, the larger one of a cone, half the largest side of anything else.

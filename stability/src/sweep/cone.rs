@@ -81,7 +81,8 @@ impl Sweep for Apex {
 
     fn setting(value: f64) -> Setting {
         // Of the tip, a pixel's worth.
-        Setting::pixel(0.5 / value)
+        let tip = Truncated::around([0.6, 0.0, 0.8], 1.0, [0.5, 0.0]);
+        Setting::pixel(0.5 / value).and(tip.shape())
     }
 
     fn measure<S: Number>(value: f64) -> Vec<Tally> {
@@ -146,13 +147,16 @@ impl Truncated {
     }
 
     fn seen(&self, eye: [f64; 3]) -> Setting {
-        let cone = Shape::Cone {
+        Setting::of(self.shape(), eye)
+    }
+
+    fn shape(&self) -> Shape {
+        Shape::Cone {
             base: self.base,
             base_radius: self.radii[0],
             top: self.top,
             top_radius: self.radii[1],
-        };
-        Setting::of(cone, eye)
+        }
     }
 }
 
