@@ -50,13 +50,9 @@ pub struct Counters {
     pub blocked: u64,
     /// Primary, reflected and transmitted rays that met something, by [`RayKind`].
     pub hits: [u64; 4],
-    /// Octree nodes visited.
-    pub steps: u64,
-    /// Object tests.
-    pub tests: u64,
     /// The most rays that ever waited on the stack.
     pub deepest: u64,
-    /// The same steps and tests in detail: of rays that look for the closest hit, and of shadow rays.
+    /// Steps and tests: of rays that look for the closest hit, and of shadow rays.
     pub searches: [Searches; 2],
     /// Which of the two is going on, 0 or 1.
     pub search: usize,
@@ -97,6 +93,16 @@ impl Counters {
         self.rays.iter().sum()
     }
 
+    /// Octree nodes visited.
+    pub fn steps(&self) -> u64 {
+        self.searches.iter().map(|search| search.steps).sum()
+    }
+
+    /// Object tests.
+    pub fn tests(&self) -> u64 {
+        self.searches.iter().flat_map(|search| search.tests).sum()
+    }
+
     /// Adds another count to this one.
     pub fn add(&mut self, other: &Self) {
         for (mine, theirs) in self.rays.iter_mut().zip(other.rays) {
@@ -106,8 +112,6 @@ impl Counters {
             *mine += theirs;
         }
         self.blocked += other.blocked;
-        self.steps += other.steps;
-        self.tests += other.tests;
         self.deepest = self.deepest.max(other.deepest);
         for (mine, theirs) in self.searches.iter_mut().zip(&other.searches) {
             mine.add(theirs);
@@ -131,14 +135,12 @@ impl Observer for Counters {
     }
     #[inline(always)]
     fn step(&mut self, children: usize) {
-        self.steps += 1;
         let search = &mut self.searches[self.search & 1];
         search.steps += 1;
         search.children += children as u64;
     }
     #[inline(always)]
     fn test(&mut self, kind: Kind, met: bool) {
-        self.tests += 1;
         let search = &mut self.searches[self.search & 1];
         search.tests[kind as usize] += 1;
         search.met[kind as usize] += u64::from(met);

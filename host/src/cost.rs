@@ -34,18 +34,22 @@ pub fn events(counters: &Counters) -> [u64; EVENTS] {
         rays(RayKind::Reflected) + rays(RayKind::Transmitted),
         rays(RayKind::Shadow),
         rays(RayKind::Shadow) - counters.blocked,
-        counters.steps,
-        counters.tests,
+        counters.steps(),
+        counters.tests(),
     ]
 }
 
 /// The cost of what was counted, in instructions.
 pub fn cost(counters: &Counters) -> f64 {
-    let events = events(counters).map(|count| count as f64);
+    weigh(events(counters))
+}
+
+/// The cost of events, in instructions.
+pub fn weigh(events: [u64; EVENTS]) -> f64 {
     events
         .iter()
         .zip(WEIGHTS)
-        .map(|(count, weight)| count * weight)
+        .map(|(count, weight)| *count as f64 * weight)
         .sum()
 }
 

@@ -17,7 +17,7 @@ use lead::Leader;
 use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
-use octray_core::observe::Counters;
+use octray_core::observe::{Counters, Searches};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -60,8 +60,8 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    steps: u64,
-    tests: u64,
+    /// Steps, children, tests and hits of [`octray_core::observe::Searches`].
+    searches: [(u64, u64, [u64; 5], [u64; 5]); 2],
     deepest: u64,
     saturations: u32,
     /// Seconds in which it traced.
@@ -74,8 +74,9 @@ impl Tally {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            steps: counters.steps,
-            tests: counters.tests,
+            searches: counters
+                .searches
+                .map(|search| (search.steps, search.children, search.tests, search.met)),
             deepest: counters.deepest,
             saturations,
             busy: busy.as_secs_f64(),
@@ -87,11 +88,14 @@ impl Tally {
             rays: self.rays,
             blocked: self.blocked,
             hits: self.hits,
-            steps: self.steps,
-            tests: self.tests,
+            searches: self.searches.map(|(steps, children, tests, met)| Searches {
+                steps,
+                children,
+                tests,
+                met,
+            }),
             deepest: self.deepest,
-            // Nobody asks a rendering for its details.
-            ..Counters::default()
+            search: 0,
         }
     }
 }

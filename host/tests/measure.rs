@@ -30,6 +30,21 @@ fn run(line: &str) -> Option<Output> {
     Some(output)
 }
 
+/// What it wrote as JSON, having measured twice and told the same; `None` as [`run`].
+fn twice(line: &str) -> Option<serde_json::Value> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    let mut results = Vec::new();
+    for _ in 0..2 {
+        let output = run(&format!("{line} --json {}", path.display()))?;
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        results.push((output.stdout, fs::read(&path).unwrap()));
+    }
+    assert_eq!(results[0], results[1]);
+    Some(serde_json::from_slice(&results[0].1).unwrap())
+}
+
 #[test]
 fn bad_usage_is_refused() {
     for (line, expected) in [
@@ -71,21 +86,8 @@ fn a_missing_scene_is_told_before_anything_is_built() {
 
 #[test]
 fn two_boards_are_measured_and_the_same_twice() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name| folder.path().join(name);
-    let mut results = Vec::new();
-    for name in ["a.json", "b.json"] {
-        let line = format!(
-            "scenes/glass.scene --targets m3,rv32imafc --arith f32 --size 16x12 --json {}",
-            file(name).display()
-        );
-        let Some(output) = run(&line) else { return };
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{told}");
-        results.push((output.stdout, fs::read(file(name)).unwrap()));
-    }
-    assert_eq!(results[0], results[1]);
-    let report: serde_json::Value = serde_json::from_slice(&results[0].1).unwrap();
+    let line = "scenes/glass.scene --targets m3,rv32imafc --arith f32 --size 16x12";
+    let Some(report) = twice(line) else { return };
     let [soft, hard] = [0, 1].map(|i| &report["rows"][i]);
     let count = |row: &serde_json::Value, name| row[name].as_u64().unwrap();
     assert_eq!(
@@ -143,21 +145,8 @@ fn a_run_that_fails_is_never_a_number() {
 
 #[test]
 fn kernels_are_measured_and_the_same_twice() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name| folder.path().join(name);
-    let mut results = Vec::new();
-    for name in ["a.json", "b.json"] {
-        let line = format!(
-            "--kernels --targets m3 --arith f32,auto --json {}",
-            file(name).display()
-        );
-        let Some(output) = run(&line) else { return };
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{told}");
-        results.push((output.stdout, fs::read(file(name)).unwrap()));
-    }
-    assert_eq!(results[0], results[1]);
-    let report: serde_json::Value = serde_json::from_slice(&results[0].1).unwrap();
+    let line = "--kernels --targets m3 --arith f32,auto";
+    let Some(report) = twice(line) else { return };
     let rows = report["rows"].as_array().unwrap();
     let row = |arith: &str, kernel: &str| {
         let found = |row: &&serde_json::Value| row["arith"] == arith && row["kernel"] == kernel;

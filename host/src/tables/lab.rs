@@ -12,7 +12,6 @@ use crate::picture::{Format, RasDepth, Target};
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
-use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use std::cell::RefCell;
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -41,7 +40,7 @@ pub struct Tally {
     pub steps: u64,
     /// Surfaces that rays were tested against.
     pub tests: u64,
-    /// Instructions, by [`cost::cost`].
+    /// Instructions, by [`cost::weigh`].
     pub instructions: f64,
     /// Time to trace, in seconds.
     pub seconds: f64,
@@ -142,19 +141,20 @@ fn tree(trial: &Trial) -> TreeOptions {
 impl Tally {
     fn of(traced: &Traced) -> Self {
         let rays = traced.rays;
-        let counters = Counters {
-            rays: [rays.primary, rays.shadow, rays.reflected, rays.transmitted],
-            blocked: rays.blocked,
-            steps: traced.steps,
-            tests: traced.tests,
-            ..Counters::default()
-        };
+        let events = [
+            rays.primary,
+            rays.reflected + rays.transmitted,
+            rays.shadow,
+            rays.shadow - rays.blocked,
+            traced.steps,
+            traced.tests,
+        ];
         Self {
             pixels: traced.picture.levels().len() as u64,
             rays,
             steps: traced.steps,
             tests: traced.tests,
-            instructions: cost::cost(&counters),
+            instructions: cost::weigh(events),
             seconds: traced.render.as_secs_f64(),
         }
     }
