@@ -14,13 +14,13 @@ pub(crate) use args::PanelArgs;
 
 use args::{Color, PanelJob};
 use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
-use octray::engine;
 use octray::error::Error;
 use octray::interrupt::Interrupt;
-use octray::job::{Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
-use octray::packets::Packet;
 use octray::{check, output};
 use octray_core::packet::Region;
+use octray_engine as engine;
+use octray_engine::options::{Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::packet::Packet;
 use octray_firmware_sim::dither::{Dithered, PanelColor};
 use octray_firmware_sim::render::Strips;
 use screen::Screen;

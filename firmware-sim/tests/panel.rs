@@ -3,7 +3,8 @@
 use clap::Parser;
 use octray::cli::{Cli, Command as Subcommand};
 use octray::interrupt::Interrupt;
-use octray::picture::{self, Level, Picture};
+use octray::picture::{self, Picture};
+use octray_engine::packet::Level;
 use snapbox::cmd::{Command, cargo_bin};
 use snapbox::str;
 use std::collections::BTreeSet;

@@ -8,7 +8,6 @@
 use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray::interrupt::Interrupt;
-use octray::job::Arith;
 use octray::measure;
 use octray::measure::board::{self, Board};
 use octray::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
@@ -18,6 +17,7 @@ use octray::measure::row::{COLUMNS, Row};
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
+use octray_engine::options::Arith;
 use octray_scenes::generate::{Kind, Spec, generate};
 use std::error::Error;
 use std::fs::{self, File};

@@ -9,11 +9,12 @@
 use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray::cost::{self, EVENTS, NAMES, WEIGHTS};
-use octray::engine::{self, Worker};
-use octray::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
-use octray::packets::{Packet, Packets, Shape};
+use octray::packets::{Packets, Shape};
 use octray::picture::Picture;
 use octray_core::packet::Region;
+use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::packet::Packet;
+use octray_engine::{self as engine, Worker};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
 use std::error::Error;

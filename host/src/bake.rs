@@ -3,10 +3,10 @@
 use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, PixelsPerRay};
 use crate::output;
 use clap::ValueEnum;
 use octray_core::octree;
+use octray_engine::options::{Arith, PixelsPerRay};
 use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::plan::Plan;
 use octray_scenes::quantise::View;

@@ -1,11 +1,11 @@
 //! What parts of a picture cost to trace: a weighted sum of counted events, which unlike time is the same
 //! every time.
 
-use crate::engine::Engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
+use octray_engine::Engine;
 use std::num::NonZeroU32;
 
 /// How many events there are weights for.

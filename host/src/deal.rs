@@ -197,6 +197,15 @@ fn left(hand: u64) -> usize {
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_policy_has_the_same_name_everywhere() {
+        for policy in Policy::value_variants() {
+            let on_command_line = policy.to_possible_value().unwrap();
+            assert_eq!(on_command_line.get_name(), policy.name());
+            assert_eq!(serde_json::to_value(policy).unwrap(), policy.name());
+        }
+    }
+
     /// Who gets what when everybody asks in turn.
     fn in_turns(
         policy: Policy,

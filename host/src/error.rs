@@ -50,6 +50,13 @@ pub enum Error {
     Interrupted,
 }
 
+/// A scene that could not be made ready: it failed.
+impl From<octray_engine::Error> for Error {
+    fn from(error: octray_engine::Error) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
 impl Error {
     /// A failure to read `path`.
     pub fn read(path: &Path, source: io::Error) -> Self {

@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::metric;
-use crate::picture::{Level, Picture};
+use crate::picture::Picture;
+use octray_engine::packet::Level;
 
 /// The part of the ramp that is used: its black end could be taken for equal pixels.
 const DARKEST: f64 = 0.25;

@@ -7,7 +7,7 @@
 //! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
 //! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`packing`]: the shape of packets and the way to deal them that suit a scene
-//! - [`engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
+//! - [`octray_engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
 //! - `ranks`, with the feature `mpi`: the same spread over the ranks of an MPI job
 //! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
 //! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
@@ -22,7 +22,6 @@ pub mod cli;
 pub mod cost;
 pub mod deal;
 pub mod diff;
-pub mod engine;
 pub mod error;
 pub mod facts;
 pub mod generate;

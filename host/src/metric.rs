@@ -1,7 +1,8 @@
 //! How far one picture is from another, in 8-bit levels.
 
 use crate::error::Error;
-use crate::picture::{Level, Picture};
+use crate::picture::Picture;
+use octray_engine::packet::Level;
 
 /// The distance between two pictures of the same size.
 ///

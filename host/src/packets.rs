@@ -1,8 +1,9 @@
 //! Cutting a picture into packets that threads write into without getting in each other's way: strips of
 //! rows, or tiles.
 
-use crate::picture::{Intensity, Level, Picture};
+use crate::picture::Picture;
 use octray_core::packet::Region;
+use octray_engine::packet::Packet;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;
@@ -51,17 +52,6 @@ impl fmt::Display for Shape {
             (None, rows) => write!(f, "{rows} rows"),
         }
     }
-}
-
-/// One packet, to be written into.
-#[derive(Debug)]
-pub struct Packet<'a> {
-    /// Which pixels of the picture these are.
-    pub region: Region,
-    /// Their levels, row by row.
-    pub levels: Vec<&'a mut [Level]>,
-    /// Their intensities, row by row, if the picture has them.
-    pub intensities: Option<Vec<&'a mut [Intensity]>>,
 }
 
 /// All packets of a picture, each to be taken once by whichever thread works on it.

@@ -7,13 +7,13 @@
 
 use crate::cost::{CostMap, dearest_first};
 use crate::deal::{Deal, Policy};
-use crate::engine::Engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::WorkOptions;
 use crate::packets::Shape;
 use crate::simulate::{Machine, simulate};
 use octray_core::packet::Region;
+use octray_engine::Engine;
 use serde::Serialize;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::time::Instant;
@@ -279,7 +279,7 @@ fn coin(packet: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+    use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
     use octray_scenes::model::Scene;
 
     /// A ball in a corner of a picture of 128 x 128 pixels.
@@ -305,7 +305,7 @@ mod tests {
             max_depth: 8,
             cut_off: 0.0,
         };
-        crate::engine::build(scene, Arith::F32, &tree, &view).unwrap()
+        octray_engine::build(scene, Arith::F32, &tree, &view).unwrap()
     }
 
     fn packing(work: &WorkOptions) -> Packing {

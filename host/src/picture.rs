@@ -11,15 +11,10 @@ mod ras;
 pub use format::{Format, RasDepth, Target, read};
 
 use fnv::FnvHasher;
+use octray_engine::packet::{Intensity, Level};
 use std::hash::Hasher;
 use std::io;
 use std::ops::Range;
-
-/// Red, green and blue in 8 bits, 255 being full intensity.
-pub type Level = [u8; 3];
-
-/// Red, green and blue as linear intensities, 1 being full intensity.
-pub type Intensity = [f32; 3];
 
 /// A picture, rows from top to bottom, columns from left to right.
 ///

@@ -10,7 +10,7 @@ mod serve;
 
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, RenderJob, TreeOptions, ViewOptions};
+use crate::job::RenderJob;
 use crate::packets::Shape;
 use crate::render;
 use lead::Leader;
@@ -18,6 +18,7 @@ use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
 use octray_core::observe::{Counters, Searches};
+use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -8,8 +8,9 @@ use crate::job::{RenderJob, StatsFormat};
 use crate::output;
 use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::stats::{Octree, Rays, Seconds, Stats, Work};
+use crate::stats::{Rays, Seconds, Stats, Work};
 use crate::summary::Summary;
+use octray_engine::Octree;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
@@ -106,8 +107,9 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
 mod tests {
     use super::*;
     use crate::deal::Policy;
-    use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions, WorkOptions};
+    use crate::job::WorkOptions;
     use crate::picture::{self, RasDepth, Target};
+    use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
     use std::fs;
     use std::path::Path;
 

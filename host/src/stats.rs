@@ -2,9 +2,10 @@
 
 use crate::deal::Policy;
 use crate::facts::Facts;
-use crate::job::{Arith, Tree};
 use crate::packets::Shape;
 use crate::packing::Forecast;
+use octray_engine::Octree;
+use octray_engine::options::Arith;
 use serde::{Serialize, Serializer};
 
 /// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
@@ -75,21 +76,6 @@ impl Rays {
     }
 }
 
-/// The octree that was built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Octree {
-    /// Its kind.
-    pub kind: Tree,
-    /// Nodes.
-    pub nodes: u64,
-    /// Links from leaves to objects.
-    pub links: u64,
-    /// The deepest level of nodes, the root being level 0.
-    pub depth: u32,
-    /// Leaves that hold more objects than asked for because the arena was full.
-    pub unsplit: u64,
-}
-
 /// Wall-clock time per stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
@@ -139,6 +125,7 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 pub(crate) mod tests {
     use super::*;
     use crate::packing::FIXED;
+    use octray_engine::options::Tree;
 
     /// Statistics in which every number is another.
     pub(crate) fn example() -> Stats {

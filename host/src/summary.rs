@@ -226,7 +226,8 @@ idle          500 us, 0 us
     #[test]
     fn a_full_arena_is_told_and_plain_arithmetic_named_once() {
         let mut stats = example();
-        (stats.arith, stats.format, stats.scale) = (crate::job::Arith::F32, "f32".into(), 0);
+        (stats.arith, stats.format, stats.scale) =
+            (octray_engine::options::Arith::F32, "f32".into(), 0);
         (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
         stats.too_fine = Some("f32 resolves little".into());
         let text = Summary(&stats).to_string();

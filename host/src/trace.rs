@@ -1,11 +1,10 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
 use crate::deal::Deal;
-use crate::engine::{self, Built, Engine, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::{Packet, Packets};
+use crate::packets::Packets;
 use crate::packing;
 use crate::picture::Picture;
 use crate::progress::Progress;
@@ -15,6 +14,8 @@ use crate::threads::{self, idle, run_packets};
 use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
 use octray_core::scalar;
+use octray_engine::packet::Packet;
+use octray_engine::{self as engine, Built, Engine, Worker};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};

@@ -1,12 +1,11 @@
 //! Pictures made by octray, without its command line.
 
 use octray::interrupt::Interrupt;
-use octray::job::{
-    Arith, Link, PixelsPerRay, RenderJob, StatsFormat, Tree, TreeOptions, ViewOptions, WorkOptions,
-};
+use octray::job::{RenderJob, StatsFormat, WorkOptions};
 use octray::picture::{RasDepth, Target};
 use octray::progress::Progress;
 use octray::render::Traced;
+use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_scenes::model::Scene;
 use std::fs;
 use std::num::NonZeroUsize;

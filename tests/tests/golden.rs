@@ -3,9 +3,9 @@
 //! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
 
 use octray::interrupt::Interrupt;
-use octray::job::Arith;
 use octray::metric::Difference;
 use octray::picture::{self, RasDepth, Target};
+use octray_engine::options::Arith;
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;
 use std::fs;

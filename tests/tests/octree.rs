@@ -2,7 +2,6 @@
 //! bit, in every arithmetic.
 
 use fastrand::Rng;
-use octray::job::{self, Arith, Tree};
 use octray_core::observe::Counters;
 use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
 use octray_core::ray::{Bounds, Ray};
@@ -10,6 +9,7 @@ use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_core::shape::ObjectRef;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::{Axis, Vec3, vec3};
+use octray_engine::options::{self, Arith, Tree};
 use octray_scenes::generate::{Kind, Spec};
 use octray_scenes::quantise::{Prepared, Quantised, View, quantise};
 use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
@@ -56,15 +56,15 @@ fn pictures_are_the_same() {
                 let traced = shot.take(&scene);
                 (traced.picture.levels().to_vec(), traced.rays)
             };
-            let (picture, rays) = take(Tree::None, 0, job::Link::Shape);
+            let (picture, rays) = take(Tree::None, 0, options::Link::Shape);
             for kind in [Tree::Tight, Tree::Packed, Tree::Modified, Tree::Plain] {
                 for (arena, link) in [
-                    (0, job::Link::Shape),
-                    (0, job::Link::Box),
-                    (1, job::Link::Shape),
-                    (2, job::Link::Shape),
-                    (5, job::Link::Shape),
-                    (20, job::Link::Box),
+                    (0, options::Link::Shape),
+                    (0, options::Link::Box),
+                    (1, options::Link::Shape),
+                    (2, options::Link::Shape),
+                    (5, options::Link::Shape),
+                    (20, options::Link::Box),
                 ] {
                     let (same_picture, same_rays) = take(kind, arena, link);
                     assert!(

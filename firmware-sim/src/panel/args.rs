@@ -3,8 +3,8 @@
 use clap::{Parser, ValueEnum, value_parser};
 use octray::cli::value;
 use octray::error::Error;
-use octray::job::Arith;
 use octray::picture::Target;
+use octray_engine::options::Arith;
 use std::path::PathBuf;
 
 /// Draws a scene on a simulated panel, strip by strip, by the code that draws on boards

@@ -2,14 +2,15 @@
 
 use super::ChartJob;
 use super::setting::Setting;
-use crate::engine::{self, Engine, FirstHit};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{Arith, PixelsPerRay, RenderJob, StatsFormat, Tree, WorkOptions};
+use crate::job::{RenderJob, StatsFormat, WorkOptions};
 use crate::metric::Difference;
 use crate::picture::{Format, Picture, RasDepth, Target};
 use crate::progress::Progress;
 use crate::trace::trace;
+use octray_engine::options::{Arith, PixelsPerRay, Tree};
+use octray_engine::{self as engine, Engine, FirstHit};
 use octray_scenes::model::Scene;
 use std::path::PathBuf;
 
@@ -135,7 +136,7 @@ pub(super) fn build(
     size: (u32, u32),
 ) -> Result<Box<dyn Engine>, Error> {
     let (tree, view) = (setting.tree_options(), setting.view_options(size));
-    engine::build(scene, setting.arith, &tree, &view)
+    Ok(engine::build(scene, setting.arith, &tree, &view)?)
 }
 
 /// The picture, and the number format that was used.

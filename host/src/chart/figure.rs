@@ -5,7 +5,7 @@ use super::axis::{Axis, amount, log_ticks};
 use super::label::{self, Label, MARKER, Rect};
 use super::point::{Against, Panel, Point};
 use crate::canvas::{Area, Drawn, Figure, write};
-use crate::job::Arith;
+use octray_engine::options::Arith;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 

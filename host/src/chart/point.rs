@@ -233,7 +233,7 @@ pub(super) mod tests {
     use super::super::accuracy::Sight;
     use super::super::setting::tests::grid;
     use super::*;
-    use crate::job::Arith;
+    use octray_engine::options::Arith;
     use std::num::NonZeroUsize;
 
     /// A panel of made-up points: arithmetic, cost, and sum of squared differences.
@@ -338,7 +338,7 @@ pub(super) mod tests {
             ..panel
         };
         let setting = Setting {
-            tree: crate::job::Tree::Packed,
+            tree: octray_engine::options::Tree::Packed,
             ..board.points[0].setting
         };
         assert_eq!(

@@ -1,6 +1,6 @@
 //! What a picture is rendered with: one of each thing that can be chosen, and all combinations.
 
-use crate::job::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 
 /// One choice of everything.
 #[derive(Clone, Copy, Debug, PartialEq)]

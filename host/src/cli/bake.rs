@@ -3,8 +3,8 @@
 use super::value;
 use crate::bake::{BakeJob, TreeKind};
 use crate::error::Error;
-use crate::job::{Arith, DEEPEST, PixelsPerRay};
 use clap::{Args, value_parser};
+use octray_engine::options::{Arith, DEEPEST, PixelsPerRay};
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 

@@ -7,9 +7,9 @@ use crate::chart::cost::{CostKind, tree_on_boards};
 use crate::chart::point::{Against, Wishes};
 use crate::chart::setting::Grid;
 use crate::error::Error;
-use crate::job::{Arith, DEEPEST, PixelsPerRay, Tree};
 use crate::picture::Target;
 use clap::{Args, value_parser};
+use octray_engine::options::{Arith, DEEPEST, PixelsPerRay, Tree};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 

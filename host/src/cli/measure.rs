@@ -3,13 +3,13 @@
 use super::value;
 use crate::canvas;
 use crate::error::Error;
-use crate::job::{Arith, DEEPEST};
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
 use crate::measure::ratio::CORES;
 use crate::measure::reference::View;
 use crate::picture::Target;
 use clap::{Args, value_parser};
+use octray_engine::options::{Arith, DEEPEST};
 use std::path::PathBuf;
 use std::time::Duration;
 

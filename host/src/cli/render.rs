@@ -3,14 +3,12 @@
 use super::value;
 use crate::deal::Policy;
 use crate::error::Error;
-use crate::job::{
-    Arith, DEEPEST, Link, PixelsPerRay, RenderJob, StatsFormat, Tree, TreeOptions, ViewOptions,
-    WorkOptions,
-};
+use crate::job::{RenderJob, StatsFormat, WorkOptions};
 use crate::packets::Shape;
 use crate::packing;
 use crate::picture::{RasDepth, Target};
 use clap::{Args, value_parser};
+use octray_engine::options::{Arith, DEEPEST, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use std::fs;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;

@@ -4,12 +4,12 @@ use super::value;
 use crate::canvas;
 use crate::deal::Policy;
 use crate::error::Error;
-use crate::job::{Arith, DEEPEST, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use crate::packets::Shape;
 use crate::picture::Target;
 use crate::simulate::Machine;
 use crate::sweep::SweepJob;
 use clap::{Args, ValueEnum, value_parser};
+use octray_engine::options::{Arith, DEEPEST, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 

@@ -4,7 +4,7 @@
 use super::ratio::{CORES, Pair, THESIS, pairs, per_pixel};
 use super::row::Row;
 use crate::canvas::{Area, Drawn, Figure, write};
-use crate::job::Arith;
+use octray_engine::options::Arith;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 

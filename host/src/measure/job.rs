@@ -2,8 +2,8 @@
 
 use super::board::Board;
 use super::reference::View;
-use crate::job::Arith;
 use clap::ValueEnum;
+use octray_engine::options::Arith;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;

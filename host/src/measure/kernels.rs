@@ -13,9 +13,9 @@ use super::report::{Report, With};
 use super::workspace::Workspace;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::Arith;
 use crate::output;
 use crate::progress::Progress;
+use octray_engine::options::Arith;
 use serde::Serialize;
 use table::{failures, text};
 

@@ -3,14 +3,13 @@
 
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{
-    Arith, Link, PixelsPerRay, RenderJob, StatsFormat, Tree, TreeOptions, ViewOptions, WorkOptions,
-};
+use crate::job::{RenderJob, StatsFormat, WorkOptions};
 use crate::metric::Difference;
 use crate::picture::{Format, RasDepth, Target};
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
+use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

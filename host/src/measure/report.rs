@@ -101,7 +101,7 @@ pub(super) mod tests {
     use super::super::job::{Goal, TreeKind};
     use super::super::row::{COLUMNS, Cost, Row};
     use super::*;
-    use crate::job::Arith;
+    use octray_engine::options::Arith;
 
     /// A row in which every number is another.
     pub(in super::super) fn example() -> Row {

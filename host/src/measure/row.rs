@@ -6,7 +6,7 @@ use super::cycles::Estimate;
 use super::job::{Goal, TreeKind};
 use super::memory::Memory;
 use super::reference::Reference;
-use crate::job::Arith;
+use octray_engine::options::Arith;
 use serde::Serialize;
 
 /// A scene on a board in an arithmetic.

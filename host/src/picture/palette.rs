@@ -1,6 +1,7 @@
 //! A picture in at most 256 colours.
 
-use super::{Level, Picture};
+use super::Picture;
+use octray_engine::packet::Level;
 use quantette::deps::palette::{Srgb, cast};
 use quantette::{ImageRef, PaletteSize, Pipeline};
 use std::collections::BTreeSet;

@@ -1,7 +1,8 @@
 //! Portable float map: 32-bit floats, the bottom row first, the scale's sign telling the byte order.
 
 use super::format::malformed;
-use super::{Intensity, Picture, netpbm};
+use super::{Picture, netpbm};
+use octray_engine::packet::Intensity;
 use std::io::{self, BufRead, Write};
 
 /// Write the intensities little-endian; a picture without them gives level/255.

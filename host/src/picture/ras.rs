@@ -1,7 +1,8 @@
 //! Sun rasterfile: eight big-endian words, a colour map, rows padded to 16 bits (Sun's `rasterfile(5)`).
 
 use super::format::malformed;
-use super::{Level, Picture, RasDepth, palette};
+use super::{Picture, RasDepth, palette};
+use octray_engine::packet::Level;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
 const MAGIC: u32 = 0x59a6_6a95;

@@ -2,16 +2,17 @@
 
 use super::model::ROWS;
 use crate::deal::Policy;
-use crate::engine::{self, Engine};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{PixelsPerRay, ViewOptions, WorkOptions};
+use crate::job::WorkOptions;
 use crate::packets::Shape;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::trace;
 use octray_core::observe::{Counters, RayKind, Searches};
 use octray_core::octree::Options;
+use octray_engine::options::{PixelsPerRay, ViewOptions};
+use octray_engine::{self as engine, Engine};
 use octray_scenes::bake::Tree;
 use octray_scenes::model::Scene;
 use octray_scenes::plan::Plan;

@@ -2,11 +2,10 @@
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, failed, pause};
 use crate::deal::Deal;
-use crate::engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::{Packet, Packets};
+use crate::packets::Packets;
 use crate::packing;
 use crate::progress::Progress;
 use crate::render::Traced;
@@ -17,6 +16,8 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::observe::Counters;
 use octray_core::scalar;
+use octray_engine as engine;
+use octray_engine::packet::Packet;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;

@@ -1,15 +1,15 @@
 //! What every rank but the first does: trace what it is told to.
 
 use super::{IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, failed, pause};
-use crate::engine::{self, Worker};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::packets::Packet;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::{Process, SimpleCommunicator};
 use mpi::traits::{Communicator, Destination};
 use octray_core::packet::Region;
 use octray_core::scalar;
+use octray_engine::packet::Packet;
+use octray_engine::{self as engine, Worker};
 use std::time::{Duration, Instant};
 
 /// Works for the first rank until there is nothing left.

@@ -5,13 +5,13 @@ use super::page::{self, Section, quoted};
 use crate::error::Error;
 use crate::heat;
 use crate::interrupt::Interrupt;
-use crate::job::Arith;
 use crate::measure::frames::Named;
 use crate::measure::reference::{self, View};
 use crate::metric::Difference;
 use crate::progress::Progress;
 use crate::render::Traced;
 use maud::{Markup, html};
+use octray_engine::options::Arith;
 use std::path::Path;
 
 /// The most bounces, as `octray render` has it.

@@ -1,7 +1,7 @@
 //! The scenes of the tables, and their variants.
 
 use crate::error::Error;
-use crate::job::{PixelsPerRay, Tree};
+use octray_engine::options::{PixelsPerRay, Tree};
 use octray_scenes::model::Scene;
 
 /// A scene that comes with octray.

@@ -7,7 +7,7 @@ use super::subject::{FIGURES, FLAT, Subject, Trial};
 use super::table::{Base, Draft, Quantity};
 use super::thesis::Thesis;
 use crate::error::Error;
-use crate::job::{PixelsPerRay, Tree};
+use octray_engine::options::{PixelsPerRay, Tree};
 
 /// What a column holds, and how it is got.
 type Column = (Quantity, fn(&Tally) -> f64);

@@ -50,7 +50,7 @@ mod tests {
     use super::super::super::board::BOARDS;
     use super::super::{COLUMNS, row};
     use super::*;
-    use crate::job::Arith;
+    use octray_engine::options::Arith;
 
     #[test]
     fn failures_are_told_once_and_have_no_number() {

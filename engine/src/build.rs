@@ -1,0 +1,210 @@
+//! A scene brought into its arithmetic, and the tree grown over it.
+
+use crate::grown::Grown;
+use crate::options::{Arith, Link, Tree, TreeOptions, ViewOptions};
+use crate::ready::{Ready, intensity, level};
+use crate::{Built, Engine, Octree};
+use octray_core::octree::{self, Options, Summary, Variant};
+use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
+use octray_scenes::model::Scene;
+use octray_scenes::quantise::{self, Overflow, Prepared, View};
+use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use std::num::{NonZeroU32, NonZeroUsize};
+
+/// Why a scene could not be made ready.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// The scene does not fit the arithmetic.
+    #[error(transparent)]
+    Overflow(#[from] Overflow),
+    /// More objects than a packed tree can link.
+    #[error("a packed tree holds at most 32767 objects")]
+    Objects,
+    /// A format that no small target has.
+    #[error("no small target has {0}")]
+    Format(String),
+}
+
+/// Makes a scene ready.
+///
+/// # Errors
+/// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the arithmetic or the tree.
+pub fn build(
+    scene: &Scene,
+    arith: Arith,
+    tree: &TreeOptions,
+    view: &ViewOptions,
+) -> Result<Box<dyn Engine>, Error> {
+    let plan = Plan { scene, tree, view };
+    match arith {
+        Arith::F64 => plan.build::<f64>(),
+        Arith::F32 => plan.build::<f32>(),
+        Arith::Approx0 => plan.build::<Approx<0>>(),
+        Arith::Approx1 => plan.build::<Approx<1>>(),
+        Arith::Approx2 => plan.build::<Approx<2>>(),
+        Arith::I24F8 => plan.build::<Fixed<8, true>>(),
+        Arith::I20F12 => plan.build::<Fixed<12, true>>(),
+        Arith::I16F16 => plan.build::<Fixed<16, true>>(),
+        Arith::I12F20 => plan.build::<Fixed<20, true>>(),
+        Arith::I8F24 => plan.build::<Fixed<24, true>>(),
+        Arith::I4F28 => plan.build::<Fixed<28, true>>(),
+        Arith::I32F32 => plan.build::<Fixed64>(),
+        Arith::Auto if plan.fits::<Fixed<28, true>>() => plan.build::<Fixed<28, true>>(),
+        Arith::Auto if plan.fits::<Fixed<24, true>>() => plan.build::<Fixed<24, true>>(),
+        Arith::Auto if plan.fits::<Fixed<20, true>>() => plan.build::<Fixed<20, true>>(),
+        Arith::Auto if plan.fits::<Fixed<16, true>>() => plan.build::<Fixed<16, true>>(),
+        Arith::Auto if plan.fits::<Fixed<12, true>>() => plan.build::<Fixed<12, true>>(),
+        Arith::Auto => plan.build::<Fixed<8, true>>(),
+    }
+}
+
+/// Makes a scene ready as small targets have it, with a packed tree or none: in any format that
+/// [`octray_scenes::bake`] knows by name but approximate and 64-bit fixed ones.
+///
+/// # Errors
+/// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the format or the tree,
+/// [`Error::Format`] if the format is not known.
+pub fn build_small(
+    scene: &Scene,
+    format: &str,
+    tree: Option<Options>,
+    view: &ViewOptions,
+) -> Result<Box<dyn Engine>, Error> {
+    let tree = &TreeOptions {
+        kind: tree.map_or(Tree::None, |_| Tree::Packed),
+        depth: tree.map(|options| options.depth),
+        leaf_size: tree.and_then(|options| NonZeroU32::new(options.leaf_size)),
+        arena: None,
+        link: Link::Shape,
+    };
+    let plan = Plan { scene, tree, view };
+    match format {
+        "f64" => plan.small::<f64>(),
+        "f32" => plan.small::<f32>(),
+        "i24f8" => plan.small::<Fixed<8, true>>(),
+        "i22f10" => plan.small::<Fixed<10, true>>(),
+        "i20f12" => plan.small::<Fixed<12, true>>(),
+        "i18f14" => plan.small::<Fixed<14, true>>(),
+        "i16f16" => plan.small::<Fixed<16, true>>(),
+        "i14f18" => plan.small::<Fixed<18, true>>(),
+        "i12f20" => plan.small::<Fixed<20, true>>(),
+        "i10f22" => plan.small::<Fixed<22, true>>(),
+        "i8f24" => plan.small::<Fixed<24, true>>(),
+        "i6f26" => plan.small::<Fixed<26, true>>(),
+        "i4f28" => plan.small::<Fixed<28, true>>(),
+        other => Err(Error::Format(other.into())),
+    }
+}
+
+/// What is to be made ready, in whatever arithmetic.
+struct Plan<'a> {
+    scene: &'a Scene,
+    tree: &'a TreeOptions,
+    view: &'a ViewOptions,
+}
+
+impl Plan<'_> {
+    /// Whether the scene cannot overflow format `S`.
+    fn fits<S: Quantize>(&self) -> bool {
+        quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
+    }
+
+    /// The view as quantisation wants it.
+    fn quantised_view(&self) -> View {
+        View {
+            size: self.view.size,
+            pixels_per_ray: self.view.pixels_per_ray.number(),
+            samples: self.view.samples,
+            max_depth: self.view.max_depth,
+        }
+    }
+
+    /// With any tree.
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let variant = match self.tree.kind {
+            Tree::Packed | Tree::None => return self.small::<S>(),
+            Tree::Tight => None,
+            Tree::Modified => Some(Variant::Modified),
+            Tree::Plain => Some(Variant::Plain),
+        };
+        let mut prepared = self.prepare::<S>()?;
+        let Some(variant) = variant else {
+            let (tree, summary) = TightTree::build(&mut prepared.scene, &self.growth(24));
+            return Ok(self.ready(prepared, tree, summary));
+        };
+        let link = match self.tree.link {
+            Link::Shape => octree::Link::Shape,
+            Link::Box => octree::Link::Box,
+        };
+        let growth = self.growth(8);
+        let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
+        Ok(self.ready(prepared, tree, summary))
+    }
+
+    /// With a packed tree, or none.
+    fn small<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let mut prepared = self.prepare::<S>()?;
+        if self.tree.kind == Tree::Packed {
+            let (tree, summary) = PackedTree::build(&mut prepared.scene, &self.growth(24))
+                .map_err(|_| Error::Objects)?;
+            return Ok(self.ready(prepared, tree, summary));
+        }
+        let all = every_object(&prepared.scene);
+        let summary = Summary {
+            links: all.len() as u32,
+            ..Summary::default()
+        };
+        Ok(self.ready(prepared, all, summary))
+    }
+
+    fn growth(&self, default_depth: u32) -> Growth {
+        Growth {
+            options: Options {
+                depth: self.tree.depth.unwrap_or(default_depth),
+                leaf_size: self.tree.leaf_size.map_or(2, NonZeroU32::get),
+            },
+            arena: self.tree.arena.map(NonZeroUsize::get),
+        }
+    }
+
+    fn prepare<S: Quantize>(&self) -> Result<Prepared<S>, Error> {
+        Ok(quantise::quantise(self.scene, &self.quantised_view())?)
+    }
+
+    fn ready<S: Quantize, T: Grown<S> + 'static>(
+        &self,
+        prepared: Prepared<S>,
+        tree: T,
+        summary: Summary,
+    ) -> Box<dyn Engine> {
+        let background = prepared.scene.background;
+        let built = Built {
+            format: S::NAME,
+            scale: prepared.placement.exponent,
+            too_fine: quantise::resolution::<S>(self.scene, &self.quantised_view())
+                .err()
+                .map(|fine| fine.to_string()),
+            octree: Octree {
+                kind: self.tree.kind,
+                nodes: u64::from(summary.inner + summary.leaves),
+                links: u64::from(summary.links),
+                depth: summary.depth,
+                unsplit: u64::from(summary.unsplit),
+            },
+            size: self
+                .view
+                .size
+                .unwrap_or((self.scene.width, self.scene.height)),
+            active: prepared.frame.active().clone(),
+            block: prepared.frame.block(),
+            background: (level(background), intensity(background)),
+        };
+        Box::new(Ready {
+            prepared,
+            tree,
+            built,
+            max_depth: self.view.max_depth,
+            cut_off: S::from_f64(self.view.cut_off),
+        })
+    }
+}

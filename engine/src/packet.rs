@@ -1,0 +1,20 @@
+//! Parts of a picture to be written into.
+
+use octray_core::packet::Region;
+
+/// Red, green and blue in 8 bits, 255 being full intensity.
+pub type Level = [u8; 3];
+
+/// Red, green and blue as linear intensities, 1 being full intensity.
+pub type Intensity = [f32; 3];
+
+/// One packet, to be written into.
+#[derive(Debug)]
+pub struct Packet<'a> {
+    /// Which pixels of the picture these are.
+    pub region: Region,
+    /// Their levels, row by row.
+    pub levels: Vec<&'a mut [Level]>,
+    /// Their intensities, row by row, if the picture has them.
+    pub intensities: Option<Vec<&'a mut [Intensity]>>,
+}
