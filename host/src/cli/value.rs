@@ -3,7 +3,7 @@
 use crate::diff::Share;
 use crate::picture::Target;
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
 /// A picture file whose extension names its format.
@@ -28,6 +28,17 @@ pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
+/// The most threads or processors that can be asked for.
+const MOST: u32 = 65_536;
+
+/// A number of threads.
+pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = positive(text).ok();
+    number
+        .filter(|n: &NonZeroUsize| n.get() <= MOST as usize)
+        .ok_or_else(|| format!("expected a number of threads from 1 to {MOST}"))
+}
+
 /// Whole numbers, none of them 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Whole(pub(super) Vec<NonZeroU32>);
@@ -50,9 +61,11 @@ pub(super) fn doubling(text: &str) -> Result<Whole, String> {
             .map(positive)
             .collect::<Result<Vec<_>, _>>()?,
     };
-    match numbers.iter().all(|n| n.get() <= 65_536) && !numbers.is_empty() {
+    match numbers.iter().all(|n| n.get() <= MOST) && !numbers.is_empty() {
         true => Ok(Whole(numbers)),
-        false => Err("expected numbers from 1 to 65536 such as 1,2,7 or 1..1024".into()),
+        false => Err(format!(
+            "expected numbers from 1 to {MOST} such as 1,2,7 or 1..1024"
+        )),
     }
 }
 
@@ -122,6 +135,14 @@ mod tests {
         assert_eq!(numbers("3..3"), Ok(vec![3]));
         for wrong in ["", "0", "1,", "0..4", "4..1", "1..", "99999", "a"] {
             assert!(doubling(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_threads() {
+        assert_eq!(threads("65536").map(NonZeroUsize::get), Ok(65_536));
+        for wrong in ["0", "65537", "100000000000", "18446744073709551615", "x"] {
+            assert!(threads(wrong).is_err(), "{wrong}");
         }
     }
 
