@@ -166,21 +166,24 @@ fn the_json_object_has_the_documented_fields() {
 #[test]
 fn the_chosen_packing_is_explained() {
     let folder = folder();
-    let chosen = stats(folder.path(), "--threads 2");
+    // In a large picture a probe takes little.
+    let chosen = stats(folder.path(), "--threads 2 --size 640x480");
     let forecast = |field: &str| chosen["forecast"][field].as_f64().unwrap();
     assert!(forecast("speed_up") > 1.0 && forecast("speed_up") <= 2.0);
     assert!(forecast("fixed") > 1.0 && forecast("fixed") <= 2.0);
     assert!(forecast("probed") > 0.0 && forecast("simulated") > 0.0);
-    let explained = done(folder.path(), "render a.scene --threads 2");
+    let explained = done(folder.path(), "render a.scene --threads 2 --size 640x480");
     assert!(
         explained.contains("\npacking       speed-up "),
         "{explained}"
     );
     let explicit = stats(
         folder.path(),
-        "--threads 2 --schedule static --packet-rows 4",
+        "--threads 2 --size 640x480 --schedule static --packet-rows 4",
     );
     assert_eq!(explicit["forecast"], Value::Null);
+    let small = stats(folder.path(), "--threads 2");
+    assert_eq!(small["forecast"], Value::Null);
     assert_eq!(explicit["hash"], chosen["hash"]);
 }
 
