@@ -13,8 +13,8 @@ pub type Intensity = [f32; 3];
 pub struct Packet<'a> {
     /// Which pixels of the picture these are.
     pub region: Region,
-    /// Their levels, row by row.
-    pub levels: Vec<&'a mut [Level]>,
-    /// Their intensities, row by row, if the picture has them.
-    pub intensities: Option<Vec<&'a mut [Intensity]>>,
+    /// Their levels, row by row, as many as the region has pixels.
+    pub levels: &'a mut [Level],
+    /// As many intensities, if the picture has them.
+    pub intensities: Option<&'a mut [Intensity]>,
 }

@@ -89,22 +89,23 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
     fn trace(&mut self, packet: Packet<'_>) {
         let Packet {
             region,
-            mut levels,
+            levels,
             mut intensities,
         } = packet;
         let background = self.ready.built.background;
-        levels.iter_mut().for_each(|row| row.fill(background.0));
-        for row in intensities.iter_mut().flatten() {
-            row.fill(background.1);
+        levels.fill(background.0);
+        if let Some(intensities) = &mut intensities {
+            intensities.fill(background.1);
         }
         // What blocked the lights last in another packet must not change what is counted in this one.
         self.blockers.fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
+        let width = region.columns.len();
         self.render(&region, |x, y, colour| {
-            let (row, column) = ((y - top) as usize, (x - left) as usize);
-            levels[row][column] = level(colour);
+            let pixel = (y - top) as usize * width + (x - left) as usize;
+            levels[pixel] = level(colour);
             if let Some(intensities) = &mut intensities {
-                intensities[row][column] = intensity(colour);
+                intensities[pixel] = intensity(colour);
             }
         });
     }

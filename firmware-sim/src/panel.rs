@@ -88,7 +88,7 @@ where
         let columns = 0..width;
         worker.trace(Packet {
             region: Region { columns, rows },
-            levels: pixels.chunks_exact_mut(width as usize).collect(),
+            levels: pixels,
             intensities: None,
         });
         tracing += begin.elapsed();

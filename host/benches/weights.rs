@@ -14,8 +14,7 @@ use clap::Parser;
 use comfy_table::Table;
 use common::table::table;
 use octray::cost::{self, EVENTS, NAMES, WEIGHTS};
-use octray::packets::{Packets, Shape};
-use octray::picture::Picture;
+use octray::packets::{Part, Shape};
 use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Worker};
@@ -79,13 +78,11 @@ fn trace() -> Result<(), Box<dyn Error>> {
     };
     for (name, scene) in scenes()? {
         let engine = engine::build(&scene, Arith::F32, &tree, &view)?;
-        let mut picture = Picture::black(SIZE, SIZE, false).ok_or("no memory")?;
         let region = engine.built().region();
-        let packets = Packets::cut(&mut picture, &region, Shape::strip(ROWS));
-        for index in 0..packets.len() {
-            let packet = packets.take(index).ok_or("a packet is gone")?;
+        for strip in Shape::strip(ROWS).cut(&region) {
+            let mut part = Part::black(strip, false);
             let mut worker = engine.worker();
-            trace_a_strip(&mut *worker, packet);
+            trace_a_strip(&mut *worker, part.packet());
             let events = cost::events(worker.counters()).map(|count| count.to_string());
             println!("{name} {}", events.join(" "));
         }

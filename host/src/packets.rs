@@ -1,13 +1,10 @@
-//! Cutting a picture into packets that threads write into without getting in each other's way: strips of
-//! rows, or tiles.
+//! Cutting a picture into packets, strips of rows or tiles, and the memory that each is traced into.
 
-use crate::picture::Picture;
 use octray_core::packet::Region;
-use octray_engine::packet::Packet;
+use octray_engine::packet::{Intensity, Level, Packet};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;
-use std::sync::Mutex;
 
 /// How large packets are; those at the right and at the bottom may be smaller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -72,87 +69,43 @@ impl fmt::Display for Shape {
     }
 }
 
-/// All packets of a picture, each to be taken once by whichever thread works on it.
-#[derive(Debug)]
-pub struct Packets<'a>(Vec<Mutex<Option<Packet<'a>>>>);
-
-impl<'a> Packets<'a> {
-    /// Cut a region of a picture into packets, in the order of [`Shape::cut`]. Pixels that the picture does not
-    /// have are left out.
-    pub fn cut(picture: &'a mut Picture, region: &Region, shape: Shape) -> Self {
-        let (width, height) = picture.size();
-        let region = Region {
-            columns: region.columns.start..region.columns.end.min(width),
-            rows: region.rows.start..region.rows.end.min(height),
-        };
-        let (levels, intensities) = picture.pixels_mut();
-        let mut levels = Rows::new(levels, width, &region);
-        let mut intensities = intensities.map(|pixels| Rows::new(pixels, width, &region));
-        let packets = shape.cut(&region).map(|region| {
-            let levels = levels.take(&region);
-            let intensities = intensities.as_mut().map(|rows| rows.take(&region));
-            Mutex::new(Some(Packet {
-                region,
-                levels,
-                intensities,
-            }))
-        });
-        Self(packets.collect())
-    }
-
-    /// How many packets there are.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Take a packet; `None` if it was taken before or is not there.
-    pub fn take(&self, index: usize) -> Option<Packet<'a>> {
-        self.0.get(index)?.lock().ok()?.take()
-    }
+/// A part of a picture in memory of its own, so that threads which trace parts beside each other do not write
+/// into the same cache lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Which pixels of the picture these are.
+    pub region: Region,
+    /// Their levels, row by row.
+    pub levels: Vec<Level>,
+    /// Their intensities, row by row, if the picture has them.
+    pub intensities: Option<Vec<Intensity>>,
 }
 
-/// What is left of each row of a region.
-struct Rows<'a, T> {
-    first: u32,
-    rows: Vec<&'a mut [T]>,
-}
-
-impl<'a, T> Rows<'a, T> {
-    fn new(pixels: &'a mut [T], width: u32, region: &Region) -> Self {
-        let Region { columns, rows } = region;
-        let inside = |row: &'a mut [T]| {
-            row.get_mut(columns.start as usize..columns.end as usize)
-                .unwrap_or_default()
-        };
-        let rows_of = pixels.chunks_exact_mut(width.max(1) as usize);
+impl Part {
+    /// A part of a picture, with intensities or without, to be traced.
+    pub fn black(region: Region, holds_intensities: bool) -> Self {
+        let pixels = region.columns.len() * region.rows.len();
         Self {
-            first: rows.start,
-            rows: rows_of
-                .skip(rows.start as usize)
-                .take(rows.len())
-                .map(inside)
-                .collect(),
+            region,
+            levels: vec![[0; 3]; pixels],
+            intensities: holds_intensities.then(|| vec![[0.0; 3]; pixels]),
         }
     }
 
-    /// Cut the next packet off, all to the left of it being gone.
-    fn take(&mut self, region: &Region) -> Vec<&'a mut [T]> {
-        let rows = region.rows.clone().map(|row| (row - self.first) as usize);
-        let width = region.columns.len();
-        rows.filter_map(|row| self.rows.get_mut(row)?.split_off_mut(..width))
-            .collect()
+    /// The same to be written into.
+    pub fn packet(&mut self) -> Packet<'_> {
+        Packet {
+            region: self.region.clone(),
+            levels: &mut self.levels,
+            intensities: self.intensities.as_deref_mut(),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::ops::Range;
+    use crate::picture::Picture;
 
     fn shape(rows: u32, columns: u32) -> Shape {
         Shape {
@@ -162,22 +115,19 @@ mod tests {
     }
 
     /// Marks the pixels of each packet with its row, its column and 1; they must not be marked before.
-    fn paint(columns: Range<u32>, rows: Range<u32>, shape: Shape) -> Picture {
+    fn paint(region: &Region, shape: Shape) -> Picture {
         let mut picture = Picture::black(7, 23, true).unwrap();
-        let packets = Packets::cut(&mut picture, &Region { columns, rows }, shape);
-        for index in 0..packets.len() {
-            let packet = packets.take(index).unwrap();
-            let intensities = packet.intensities.unwrap();
-            assert_eq!(packet.levels.len(), packet.region.rows.len());
-            assert_eq!(intensities.len(), packet.region.rows.len());
-            for (row, levels) in packet.region.rows.zip(packet.levels) {
-                assert_eq!(levels.len(), packet.region.columns.len());
-                for (column, level) in packet.region.columns.clone().zip(levels) {
-                    assert_eq!(*level, [0; 3]);
-                    *level = [row as u8, column as u8, 1];
-                }
+        for region in shape.cut(region) {
+            let mut part = Part::black(region, true);
+            let (rows, columns) = (part.region.rows.clone(), part.region.columns.clone());
+            let places = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
+            for (pixel, (row, column)) in places.enumerate() {
+                let before = picture.levels()[(row * 7 + column) as usize];
+                assert_eq!(before, [0; 3]);
+                part.levels[pixel] = [row as u8, column as u8, 1];
+                part.packet().intensities.unwrap()[pixel] = [row as f32, column as f32, 1.0];
             }
-            assert!(packets.take(index).is_none());
+            picture.put(&part);
         }
         picture
     }
@@ -186,21 +136,23 @@ mod tests {
     fn packets_cover_their_region_and_nothing_else() {
         let shapes = [(1, 0), (4, 0), (1000, 0), (1, 1), (4, 3), (5, 1000)];
         for (height, width) in shapes {
-            for rows in [0..23, 7..20, 22..23, 20..99, 30..99, 5..5] {
-                for columns in [0..7, 2..5, 6..99, 9..99, 3..3] {
+            for rows in [0..23, 7..20, 22..23, 5..5] {
+                for columns in [0..7, 2..5, 6..7, 3..3] {
                     let region = Region {
                         columns: columns.clone(),
                         rows: rows.clone(),
                     };
                     let tiles = shape(height, width);
                     assert_eq!(tiles.count(&region), tiles.cut(&region).count());
-                    let picture = paint(columns.clone(), rows.clone(), tiles);
-                    for (row, levels) in (0..).zip(picture.rows()) {
-                        for (column, level) in (0..).zip(levels) {
+                    let picture = paint(&region, tiles);
+                    let intensities = picture.intensities().unwrap().chunks(7);
+                    for (row, (levels, intensities)) in (0..).zip(picture.rows().zip(intensities)) {
+                        for (column, (level, fine)) in (0..).zip(levels.iter().zip(intensities)) {
                             let inside = rows.contains(&row) && columns.contains(&column);
                             let painted = [row as u8, column as u8, 1];
                             let expected = if inside { painted } else { [0; 3] };
                             assert_eq!(*level, expected, "{rows:?} {columns:?} {height} {width}");
+                            assert_eq!(*fine, expected.map(f32::from));
                         }
                     }
                 }

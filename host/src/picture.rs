@@ -10,11 +10,12 @@ mod ras;
 
 pub use format::{Format, RasDepth, Target, read};
 
+use crate::packets::Part;
 use fnv::FnvHasher;
 use octray_engine::packet::{Intensity, Level};
 use std::hash::Hasher;
 use std::io;
-use std::ops::Range;
+use std::ops::{Range, RangeFrom};
 
 /// A picture, rows from top to bottom, columns from left to right.
 ///
@@ -89,9 +90,21 @@ impl Picture {
         self.intensities.as_deref()
     }
 
-    /// Levels and intensities to write into, row by row.
-    pub fn pixels_mut(&mut self) -> (&mut [Level], Option<&mut [Intensity]>) {
-        (&mut self.levels, self.intensities.as_deref_mut())
+    /// Put a part in its place, which must lie in the picture. Intensities are put if both have them.
+    pub fn put(&mut self, part: &Part) {
+        let rows = part.region.rows.start as usize..;
+        let (width, left) = (self.width as usize, part.region.columns.start as usize);
+        let columns = left..left + part.region.columns.len();
+        put_rows(
+            &mut self.levels,
+            &part.levels,
+            width,
+            rows.clone(),
+            &columns,
+        );
+        if let (Some(whole), Some(part)) = (&mut self.intensities, &part.intensities) {
+            put_rows(whole, part, width, rows, &columns);
+        }
     }
 
     /// Fill the rows that are not among `rows` with a level, and with an intensity if there are any.
@@ -145,6 +158,19 @@ fn zeroed<T: Clone + Default>(count: usize) -> Option<Vec<T>> {
     // Only a try: `vec!` alone takes untouched zeros from the system, but ends the process without memory.
     Vec::<T>::new().try_reserve_exact(count).ok()?;
     Some(vec![T::default(); count])
+}
+
+/// Puts a part's pixels into rows and columns of the whole, which is `width` pixels wide.
+fn put_rows<T: Copy>(
+    whole: &mut [T],
+    part: &[T],
+    width: usize,
+    rows: RangeFrom<usize>,
+    columns: &Range<usize>,
+) {
+    for (row, pixels) in rows.zip(part.chunks_exact(columns.len().max(1))) {
+        whole[row * width..][columns.clone()].copy_from_slice(pixels);
+    }
 }
 
 #[cfg(test)]

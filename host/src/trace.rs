@@ -4,7 +4,7 @@ use crate::deal::Deal;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::Packets;
+use crate::packets::Part;
 use crate::packing;
 use crate::picture::Picture;
 use crate::progress::Progress;
@@ -18,6 +18,7 @@ use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Built, Engine, Worker};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The function that all tracing of [`trace`] happens in, as Callgrind names it.
@@ -109,12 +110,13 @@ pub fn render(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
-    let (mut picture, region) = blank(engine, holds_intensities)?;
+    let (picture, region) = blank(engine, holds_intensities)?;
     let packing = packing::choose(engine, &region, job, interrupt)?;
     // Those of the probe, or of other pictures, are not this one's.
     let before = scalar::saturations();
-    let packets = Packets::cut(&mut picture, &region, packing.shape);
-    let count = packets.len();
+    let parts: Vec<_> = packing.shape.cut(&region).collect();
+    let count = parts.len();
+    let picture = Mutex::new(picture);
     let threads = job.threads.min(at_least_one(count));
     progress.start(count);
     let finished = run_packets(
@@ -127,13 +129,16 @@ pub fn render(
             Ok(engine.worker())
         },
         |worker, index| {
-            if let Some(packet) = packets.take(index) {
-                trace_packet(&mut **worker, packet);
-            }
+            let mut part = Part::black(parts[index].clone(), holds_intensities);
+            trace_packet(&mut **worker, part.packet());
+            picture
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .put(&part);
         },
         || progress.step(),
     )?;
-    drop(packets);
+    let picture = picture.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut counters = Counters::default();
     for thread in &finished {
         counters.add(thread.state.counters());

@@ -6,8 +6,9 @@ use crate::deal::Deal;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, WorkOptions};
-use crate::packets::Packets;
+use crate::packets::Part;
 use crate::packing;
+use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::stats::{Messages, Work};
@@ -16,9 +17,9 @@ use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::observe::Counters;
+use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_engine as engine;
-use octray_engine::packet::Packet;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -92,14 +93,15 @@ impl<'a> Leader<'a> {
         self.state = State::Working;
         // As with threads, what comes before the dealing is neither idle nor the picture's.
         let (dealing, before) = (Instant::now(), scalar::saturations());
-        let packets = Packets::cut(&mut picture, &region, packing.shape);
-        let count = packets.len();
+        let parts: Vec<_> = packing.shape.cut(&region).collect();
+        let count = parts.len();
         progress.start(count);
         let (counters, busy, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
                 deal: Deal::new(packing.policy, count, threads, packing.order),
-                packets,
+                parts,
+                picture: &mut picture,
                 progress,
                 messages: Messages::default(),
                 tallies: vec![None; ranks],
@@ -149,7 +151,8 @@ impl<'a> Leader<'a> {
 struct Desk<'a> {
     world: &'a SimpleCommunicator,
     deal: Deal,
-    packets: Packets<'a>,
+    parts: Vec<Region>,
+    picture: &'a mut Picture,
     progress: &'a Progress,
     messages: Messages,
     /// What the other ranks did, once they have told.
@@ -172,10 +175,12 @@ impl Desk<'_> {
                 self.answer(message, status)?;
             }
             let next = self.deal.next(0);
-            if let Some(packet) = next.and_then(|dealt| self.packets.take(dealt.packet)) {
+            if let Some(dealt) = next {
                 let begin = Instant::now();
-                worker.trace(packet);
+                let mut part = self.part(dealt.packet);
+                worker.trace(part.packet());
                 busy += begin.elapsed();
+                self.picture.put(&part);
                 self.progress.step();
             } else if self.tallies.iter().skip(1).all(Option::is_some) {
                 return Ok((*worker.counters(), busy));
@@ -210,26 +215,28 @@ impl Desk<'_> {
         Ok(())
     }
 
+    /// A part of the picture to be filled.
+    fn part(&self, index: usize) -> Part {
+        Part::black(
+            self.parts[index].clone(),
+            self.picture.intensities().is_some(),
+        )
+    }
+
     /// Puts a packet that was traced into the picture; `None` if it is none.
-    fn keep(&self, bytes: &[u8]) -> Option<()> {
+    fn keep(&mut self, bytes: &[u8]) -> Option<()> {
         let (index, pixels) = bytes.split_first_chunk()?;
-        let Packet {
-            region,
-            levels,
-            intensities,
-        } = self.packets.take(u32::from_le_bytes(*index) as usize)?;
-        let width = region.columns.len();
-        let (mut coarse, fine) = pixels.split_at_checked(3 * width * region.rows.len())?;
-        for row in levels {
-            let (bytes, rest) = coarse.split_at(3 * width);
-            row.as_flattened_mut().copy_from_slice(bytes);
-            coarse = rest;
-        }
+        let index = u32::from_le_bytes(*index) as usize;
+        self.parts.get(index)?;
+        let mut part = self.part(index);
+        let (coarse, fine) = pixels.split_at_checked(3 * part.levels.len())?;
+        part.levels.as_flattened_mut().copy_from_slice(coarse);
         let (fine, rest) = fine.as_chunks();
         let mut fine = fine.iter().map(|bytes| f32::from_le_bytes(*bytes));
-        for value in intensities.into_iter().flatten().flatten().flatten() {
+        for value in part.intensities.iter_mut().flatten().flatten() {
             *value = fine.next()?;
         }
-        (rest.is_empty() && fine.next().is_none()).then_some(())
+        let whole = rest.is_empty() && fine.next().is_none();
+        whole.then(|| self.picture.put(&part))
     }
 }

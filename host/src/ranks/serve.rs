@@ -3,12 +3,12 @@
 use super::{IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, failed, pause};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::packets::Part;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::{Process, SimpleCommunicator};
 use mpi::traits::{Communicator, Destination};
 use octray_core::packet::Region;
 use octray_core::scalar;
-use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Worker};
 use std::time::{Duration, Instant};
 
@@ -75,17 +75,11 @@ fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
 
 /// A packet traced: its number, its levels and its intensities if they are wanted.
 fn trace(worker: &mut dyn Worker, index: u32, part: &Region, intensities: bool) -> Vec<u8> {
-    let (width, height) = (part.columns.len(), part.rows.len());
-    let mut levels = vec![[0; 3]; width * height];
-    let mut fine = intensities.then(|| vec![[0.0; 3]; width * height]);
-    worker.trace(Packet {
-        region: part.clone(),
-        levels: levels.chunks_mut(width).collect(),
-        intensities: fine.as_mut().map(|fine| fine.chunks_mut(width).collect()),
-    });
+    let mut part = Part::black(part.clone(), intensities);
+    worker.trace(part.packet());
     let mut message = index.to_le_bytes().to_vec();
-    message.extend_from_slice(levels.as_flattened());
-    for value in fine.iter().flatten().flatten() {
+    message.extend_from_slice(part.levels.as_flattened());
+    for value in part.intensities.iter().flatten().flatten() {
         message.extend_from_slice(&f32::to_le_bytes(*value));
     }
     message
