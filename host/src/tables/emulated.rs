@@ -124,6 +124,16 @@ mod tests {
     }
 
     #[test]
+    fn the_introduction_tells_the_ratios_of_the_newest_record() {
+        let note = three(None).unwrap().notes.swap_remove(0);
+        let number = |word: &str| word.parse::<f64>().is_ok().then(|| word.to_owned());
+        let ratios: Vec<_> = note.split(' ').filter_map(number).collect();
+        let told = format!("| {} (geometric means)", ratios.join(" and "));
+        let introduction = include_str!("../../../README.md");
+        assert!(introduction.contains(&told), "{told}");
+    }
+
+    #[test]
     fn cores_without_their_unit_follow_those_with_it() {
         let mut text = String::from(HEAD);
         for (board, cost) in [("m4", 60), ("m4f", 10), ("rv32imac", 45), ("rv32imafc", 15)] {
