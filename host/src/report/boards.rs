@@ -16,6 +16,7 @@ struct Row {
     board: String,
     arith: String,
     format: String,
+    outcome: String,
     per_pixel: Option<f64>,
     flash: Option<u64>,
     ram: Option<u64>,
@@ -76,19 +77,26 @@ fn read(text: &str) -> Result<Vec<Row>, csv::Error> {
 
 fn cells(row: &Row) -> Vec<String> {
     let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
-    let arith = match row.format == row.arith {
+    let arith = match row.format == row.arith || row.format.is_empty() {
         true => row.arith.clone(),
         false => format!("{}: {}", row.arith, row.format),
+    };
+    let (cost, accuracy) = match row.per_pixel {
+        None => (row.outcome.clone(), "–".into()),
+        Some(cost) => (
+            thousands(cost.round() as u64),
+            row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+        ),
     };
     vec![
         row.scene.clone(),
         row.board.clone(),
         arith,
-        whole(row.per_pixel.map(|n| n.round() as u64)),
+        cost,
         whole(row.flash),
         whole(row.ram),
         whole(row.stack),
-        row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+        accuracy,
     ]
 }
 
@@ -103,5 +111,16 @@ mod tests {
         for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "not at hand"] {
             assert!(text.contains(expected), "{expected}");
         }
+    }
+
+    #[test]
+    fn a_failure_is_not_told_to_be_equal() {
+        let text = "scene,board,arith,format,outcome,per_pixel,flash,ram,stack,psnr,commit\n\
+                    a,m0,f32,,stack overflow,,,,,,c\na,m3,f32,f32,ok,10.4,1000,20,30,,c\n";
+        let rows: Vec<_> = read(text).unwrap().iter().map(cells).collect();
+        let failed = ["a", "m0", "f32", "stack overflow", "–", "–", "–", "–"];
+        assert_eq!(rows[0], failed);
+        let equal = ["a", "m3", "f32", "10", "1,000", "20", "30", "equal"];
+        assert_eq!(rows[1], equal);
     }
 }
