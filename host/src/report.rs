@@ -53,7 +53,7 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
         .collect::<Result<Vec<Section>, _>>()?;
     drop(progress);
     let mut sections = pictures;
-    sections.push(costs::section(&job.chart, interrupt)?);
+    sections.push(costs::section(scenes, &job.chart, interrupt)?);
     sections.extend(boards::sections()?);
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();
