@@ -48,8 +48,8 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     let scenes = chart::scenes(&job.chart.scenes)?;
     let progress = Progress::new("rendering");
     progress.start(scenes.len() * job.ariths.len());
-    let pictures = (scenes.iter())
-        .map(|(path, scene)| pictures::section(scene, path, job, &progress, interrupt))
+    let pictures = (scenes.iter().enumerate())
+        .map(|(i, (path, scene))| pictures::section(i, scene, path, job, &progress, interrupt))
         .collect::<Result<Vec<Section>, _>>()?;
     drop(progress);
     let mut sections = pictures;
