@@ -97,6 +97,12 @@ impl<'a> Lab<'a> {
         Ok(tally)
     }
 
+    /// How many trials have been traced.
+    #[cfg(test)]
+    pub(super) fn traced(&self) -> usize {
+        self.seen.borrow().len()
+    }
+
     /// What each pixel of a scene costs, and the rows that cost anything.
     ///
     /// # Errors
@@ -181,6 +187,6 @@ mod tests {
             ..Trial::of(FIGURES[2])
         };
         assert_eq!(lab.tally(larger).unwrap().pixels, 60 * 40);
-        assert_eq!(lab.seen.borrow().len(), 2);
+        assert_eq!(lab.traced(), 2);
     }
 }
