@@ -45,7 +45,7 @@ pub fn of(table: &Table) -> String {
     for datum in &table.also {
         let _ = writeln!(
             text,
-            "- The thesis has, of a scene not known here: {datum}."
+            "- The thesis also has, for no line above: {datum}."
         );
     }
     for note in &table.notes {
