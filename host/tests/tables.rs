@@ -125,7 +125,8 @@ fn charts_are_drawn_with_their_tables() {
             assert!(svg.contains(&format!("figure-{scene}")), "{name}: {scene}");
         }
         assert!(svg.matches("<polyline").count() >= 2 * 5, "{name}");
-        let sides = |name: &str| -> u32 { between(&svg, &format!("{name}=\""), "\"").parse().unwrap() };
+        let sides =
+            |name: &str| -> u32 { between(&svg, &format!("{name}=\""), "\"").parse().unwrap() };
         let picture = octray::picture::read(&path.with_extension("png")).unwrap();
         assert_eq!(picture.size(), (sides("width"), sides("height")), "{name}");
     }

@@ -239,6 +239,7 @@ impl<'a> Meter<'a> {
             view: View {
                 size: self.job.size,
                 max_depth: setting.max_depth,
+                pixels_per_ray: setting.pixels_per_ray,
             },
             build: BuildOptions {
                 tree,

@@ -83,7 +83,7 @@ impl<'a> Row<'a> {
             tree: setting.tree.name(),
             max_depth: setting.max_depth,
             cut_off: setting.cut_off,
-            pixels_per_ray: setting.pixels(),
+            pixels_per_ray: setting.pixels_per_ray.number(),
             samples: setting.samples,
             cost_kind: panel.kind.name(),
             unit: panel.kind.unit(),

@@ -120,14 +120,6 @@ impl Setting {
         }
     }
 
-    /// How many pixels a ray colours.
-    pub fn pixels(&self) -> u32 {
-        match self.pixels_per_ray {
-            PixelsPerRay::One => 1,
-            PixelsPerRay::Four => 4,
-        }
-    }
-
     /// The same picture without any error of its arithmetic.
     pub fn in_f64(&self) -> Self {
         Self {
@@ -177,7 +169,7 @@ impl Setting {
             format!("--tree={}", self.tree.name()),
             format!("--max-depth={}", self.max_depth),
             format!("--cut-off={}", fraction(self.cut_off)),
-            format!("--pixels-per-ray={}", self.pixels()),
+            format!("--pixels-per-ray={}", self.pixels_per_ray.number()),
             format!("--samples={}", self.samples),
         ]
     }
@@ -189,6 +181,7 @@ impl Setting {
             format!("--size={}x{}", size.0, size.1),
             format!("--tree={tree}"),
             format!("--max-depth={}", self.max_depth),
+            format!("--pixels-per-ray={}", self.pixels_per_ray.number()),
         ]
     }
 }
@@ -218,7 +211,9 @@ pub fn common(settings: &[Setting]) -> String {
     if same(|setting| setting.cut_off) {
         words.push(format!("cut-off {}", fraction(first.cut_off)));
     }
-    if same(|setting| setting.samples.into()) && same(|setting| setting.pixels().into()) {
+    if same(|setting| setting.samples.into())
+        && same(|setting| setting.pixels_per_ray.number().into())
+    {
         words.push(match (first.pixels_per_ray, first.samples) {
             (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
             (PixelsPerRay::One, 1) => "1 ray per pixel".into(),

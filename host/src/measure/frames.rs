@@ -141,11 +141,13 @@ impl Bench<'_> {
     ) -> Result<Result<PathBuf, String>, Error> {
         let size = format!("{}x{}", view.size.0, view.size.1);
         let depth = view.max_depth.to_string();
+        let pixels = view.pixels_per_ray.number().to_string();
         let variables = [
             ("OCTRAY_SCENE", scene),
             ("OCTRAY_ARITH", arith.name()),
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
+            ("OCTRAY_PIXELS_PER_RAY", &pixels),
             ("OCTRAY_TREE", options.tree.name()),
             ("OCTRAY_COUNTS", "0"),
         ];
@@ -170,6 +172,7 @@ fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> 
         width: job.view.size.0,
         height: job.view.size.1,
         max_depth: job.view.max_depth,
+        pixels_per_ray: job.view.pixels_per_ray.number(),
         board,
         arith,
         tree: job.build.tree,

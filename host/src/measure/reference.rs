@@ -21,6 +21,8 @@ pub struct View {
     pub size: (u32, u32),
     /// The most bounces.
     pub max_depth: u32,
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: PixelsPerRay,
 }
 
 /// Below which weight the firmware traces no ray.
@@ -80,7 +82,7 @@ pub fn render(
         },
         view: ViewOptions {
             size: Some(view.size),
-            pixels_per_ray: PixelsPerRay::One,
+            pixels_per_ray: view.pixels_per_ray,
             samples: 1,
             max_depth: view.max_depth,
             cut_off: CUT_OFF,

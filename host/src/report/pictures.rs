@@ -11,7 +11,7 @@ use crate::metric::Difference;
 use crate::progress::Progress;
 use crate::render::Traced;
 use maud::{Markup, html};
-use octray_engine::options::Arith;
+use octray_engine::options::{Arith, PixelsPerRay};
 use std::path::Path;
 
 /// The most bounces, as `octray render` has it.
@@ -32,6 +32,7 @@ pub(super) fn section(
     let view = View {
         size: job.size,
         max_depth: MAX_DEPTH,
+        pixels_per_ray: PixelsPerRay::One,
     };
     let render = |arith| reference::render(&scene.scene, arith, view, interrupt);
     let exact = render(Arith::F64)?;
