@@ -19,9 +19,7 @@ pub mod setting;
 use crate::canvas;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::measure::FIGURES;
-use crate::measure::frames::Named;
-use crate::measure::workspace::Workspace;
+use crate::measure::frames::{self, Named};
 use crate::output;
 use crate::progress::Progress;
 use accuracy::{Accuracy, Judge};
@@ -30,7 +28,7 @@ use figure::Chart;
 use point::{Panel, Wishes};
 use setting::{Grid, Setting};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Everything `octray chart` was asked for. Nothing contradicts, and there is at least one setting and one kind
 /// of cost.
@@ -81,28 +79,12 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     })
 }
 
-/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
-///
-/// # Errors
-/// If one cannot be read, or is wrong.
-pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
-    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
-    if !named.is_empty() {
-        let named = named.iter();
-        return named.map(|path| read(path.clone(), path)).collect();
-    }
-    let root = Workspace::root()?;
-    (FIGURES.iter())
-        .map(|name| read(name.into(), &root.join(name)))
-        .collect()
-}
-
 /// The points of every scene: a panel for each kind of cost.
 ///
 /// # Errors
 /// When a tool is missing, a scene is refused, or there is no point at all.
 pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Error> {
-    let scenes = scenes(&job.scenes)?;
+    let scenes = frames::scenes(&job.scenes)?;
     // What is missing is told before any work.
     let meter = Meter::new(job, &job.costs, interrupt)?;
     panels(&judge(scenes, job, interrupt)?, job, &job.costs, &meter)

@@ -1,6 +1,6 @@
 //! What a picture is rendered with: one of each thing that can be chosen, and all combinations.
 
-use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 
 /// One choice of everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,13 +100,7 @@ impl Grid {
 impl Setting {
     /// The octree to build.
     pub fn tree_options(&self) -> TreeOptions {
-        TreeOptions {
-            kind: self.tree,
-            depth: None,
-            leaf_size: None,
-            arena: None,
-            link: Link::Shape,
-        }
+        TreeOptions::of(self.tree)
     }
 
     /// What to trace, in a picture of so many columns and rows.

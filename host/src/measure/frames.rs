@@ -11,6 +11,7 @@ use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
+use crate::tables::subject::FIGURES;
 use octray_engine::options::Arith;
 use octray_scenes::model::Scene;
 use std::fs;
@@ -45,6 +46,26 @@ impl Named {
             scene,
         })
     }
+}
+
+/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
+///
+/// # Errors
+/// If one cannot be read, or is wrong.
+pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
+    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
+    if !named.is_empty() {
+        let named = named.iter();
+        return named.map(|path| read(path.clone(), path)).collect();
+    }
+    let root = Workspace::root()?;
+    (FIGURES.iter())
+        .map(|figure| {
+            let told = PathBuf::from(format!("scenes/{}.scene", figure.name));
+            let path = root.join(&told);
+            read(told, &path)
+        })
+        .collect()
 }
 
 /// What measures.

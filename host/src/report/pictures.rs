@@ -96,10 +96,7 @@ fn commands(name: &str, path: &Path, (width, height): (u32, u32), shown: &[&str]
 fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error> {
     let difference = Difference::between(&exact.picture, &traced.picture)?;
     let share = 100.0 * difference.beyond_1 as f64 / difference.pixels.max(1) as f64;
-    let arith = match traced.format == arith.name() {
-        true => traced.format.clone(),
-        false => format!("{}: {}", arith.name(), traced.format),
-    };
+    let arith = arith.with_format(&traced.format);
     let says = match difference.is_zero() {
         true => "equal to f64".into(),
         false => format!(
