@@ -171,8 +171,8 @@ error: a panel of 9999x9999 at --scale 1 is too large: expected at most 67108864
 For more information, try '--help'.
 
 "#]]);
-    fails("a.ppm -o a.ppm", 2).stderr_eq(str![[r#"
-error: a.ppm is the scene itself
+    fails("a.ppm -o ./a.ppm", 2).stderr_eq(str![[r#"
+error: the result ./a.ppm would replace a.ppm, which is read: name another file
 
 For more information, try '--help'.
 

@@ -7,6 +7,7 @@ mod bake;
 mod chart;
 mod check;
 mod diff;
+pub mod files;
 mod generate;
 mod measure;
 mod plan;

@@ -101,13 +101,13 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         Command::Check(args) => check::run(&args.scenes, interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
-        Command::Diff(args) => diff::run(&args.job(), interrupt),
+        Command::Diff(args) => diff::run(&args.job()?, interrupt),
         Command::Measure(args) => measure::run(&args.job()?, interrupt),
         Command::Plan(args) => plan::run(&args.job()?, interrupt),
         Command::Schedule(args) => sweep::run(&args.job()?, interrupt),
         Command::Chart(args) => chart::run(&args.job()?, interrupt),
         Command::Report(args) => report::run(&args.job()?, interrupt),
-        Command::Stability(args) => stability::run(&args.job(), interrupt),
+        Command::Stability(args) => stability::run(&args.job()?, interrupt),
         Command::Tables(args) => tables::run(&args.job()?, interrupt),
     }
 }

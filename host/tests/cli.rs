@@ -362,6 +362,76 @@ mod schedule {
     }
 }
 
+mod results {
+    use super::*;
+
+    /// The command is refused, telling `why`, and every file is as it was.
+    fn refused(line: &str, why: &str) {
+        let folder = pictures();
+        fs::write(folder.path().join("a.scene"), "v 0 0 -9").unwrap();
+        fs::write(folder.path().join("plan"), "").unwrap();
+        let files = || -> Vec<_> {
+            let names = names(folder.path()).into_iter();
+            names
+                .map(|name| fs::read(folder.path().join(name)).unwrap())
+                .collect()
+        };
+        let before = files();
+        octray(folder.path(), line)
+            .assert()
+            .code(2)
+            .stdout_eq("")
+            .stderr_eq(format!(
+                "error: {why}\n\nFor more information, try '--help'.\n"
+            ));
+        assert_eq!(files(), before, "{line}");
+    }
+
+    #[test]
+    fn what_is_read_is_not_replaced() {
+        for (line, result, input) in [
+            ("render a.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
+            ("bake a.scene -o ./a.scene", "./a.scene", "a.scene"),
+            ("bake a.scene --plan plan -o ./plan", "./plan", "plan"),
+            ("diff a.ppm b.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
+            ("diff a.ppm ./b.ppm -o b.ppm", "b.ppm", "./b.ppm"),
+            ("schedule a.scene --csv ./a.scene", "./a.scene", "a.scene"),
+            ("measure a.scene --json ./a.scene", "./a.scene", "a.scene"),
+            ("plan a.scene --emit ./a.scene", "./a.scene", "a.scene"),
+            ("chart a.scene --csv ./a.scene", "./a.scene", "a.scene"),
+            ("report a.scene -o ./a.scene", "./a.scene", "a.scene"),
+            (
+                "tables --record a.scene -o ./a.scene",
+                "./a.scene",
+                "a.scene",
+            ),
+            (
+                "tables --thesis a.scene -o ./a.scene",
+                "./a.scene",
+                "a.scene",
+            ),
+        ] {
+            let why = format!(
+                "the result {result} would replace {input}, which is read: name another file"
+            );
+            refused(line, &why);
+        }
+    }
+
+    #[test]
+    fn one_result_is_not_written_over_another() {
+        for line in [
+            "schedule a.scene -o c.svg --csv ./c.svg",
+            "measure a.scene --csv c.svg --chart ./c.svg",
+            "chart a.scene --output c.svg --json ./c.svg",
+            "stability --json c.svg --csv ./c.svg",
+        ] {
+            let why = "the results c.svg and ./c.svg are one file: name another for one of them";
+            refused(line, why);
+        }
+    }
+}
+
 mod usage {
     use super::*;
 

@@ -51,7 +51,7 @@ fn bad_usage_is_refused() {
         ("--targets m1", "expected one of m0, m3, m4"),
         ("--arith half", "invalid value 'half'"),
         ("--size 64", "expected WIDTHxHEIGHT"),
-        ("--json a --csv a", "--json and --csv name the same file"),
+        ("--json a --csv a", "the results a and a are one file"),
     ] {
         let output = measure(line).output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);

@@ -11,18 +11,16 @@
 //! | line | what |
 //! | --- | --- |
 //! | `instructions N` | all of them |
-//! | `class NAME N`, `kind NAME N` | those of each [`Class`], and of each [`Kind`] |
+//! | `class NAME N`, `kind NAME N` | those of each [`octray_instruction::Class`], and of each [`Kind`] |
 //! | `taken N`, `moved N` | conditional branches that were taken; registers that loads and stores of several moved |
 //! | `calls N M NAME` | calls of a watched function, and the instructions from their entries to their returns |
 //! | `function N NAME` | instructions in each function's own code, the costliest first |
 
-mod kind;
 mod path;
 mod qemu;
 mod tally;
 
-pub use kind::{Class, Kind, moved};
-
+use octray_instruction::{Kind, moved};
 use path::{Block, Path};
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::sync::atomic::AtomicU64;

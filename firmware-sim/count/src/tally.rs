@@ -1,6 +1,6 @@
 //! What is counted, and the report of it.
 
-use crate::kind::{Class, Kind};
+use octray_instruction::{Class, Kind};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,7 +1,7 @@
 //! The command line of the panel simulator.
 
 use clap::{Parser, ValueEnum, value_parser};
-use octray::cli::value;
+use octray::cli::{files, value};
 use octray::error::Error;
 use octray::picture::Target;
 use octray_engine::options::Arith;
@@ -104,10 +104,7 @@ impl PanelArgs {
                 Target::new(name.into()).map_err(Error::Usage)?
             }
         };
-        if output.path == self.scene {
-            let name = self.scene.display();
-            return Err(Error::Usage(format!("{name} is the scene itself")));
-        }
+        files::distinct([&self.scene], [&output.path])?;
         Ok(PanelJob {
             scene: self.scene,
             panel: self.panel,

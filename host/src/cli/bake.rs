@@ -1,6 +1,6 @@
 //! Arguments of `octray bake`.
 
-use super::value;
+use super::{files, value};
 use crate::bake::{BakeJob, TreeKind};
 use crate::error::Error;
 use clap::{Args, value_parser};
@@ -48,12 +48,9 @@ impl BakeArgs {
     /// The job that these arguments ask for.
     ///
     /// # Errors
-    /// If the output would replace the scene.
+    /// [`Error::Usage`] if the output would replace the scene or the plan.
     pub fn job(self) -> Result<BakeJob, Error> {
-        if self.output.as_ref() == Some(&self.scene) {
-            let name = self.scene.display();
-            return Err(Error::Usage(format!("{name} is the scene itself")));
-        }
+        files::distinct(self.plan.iter().chain([&self.scene]), &self.output)?;
         Ok(BakeJob {
             scene: self.scene,
             arith: self.arith,

@@ -1,6 +1,6 @@
 //! Arguments of `octray chart`.
 
-use super::value;
+use super::{files, value};
 use crate::canvas;
 use crate::chart::ChartJob;
 use crate::chart::cost::{CostKind, tree_on_boards};
@@ -173,16 +173,7 @@ impl ChartArgs {
     /// No file is to be written twice, none over a scene, and the chart's name has to say what it is.
     fn check_files(&self) -> Result<(), Error> {
         let results = [&self.output, &self.csv, &self.json];
-        let results: Vec<_> = results.into_iter().flatten().collect();
-        for (i, path) in results.iter().enumerate() {
-            let name = path.display();
-            if self.scenes.contains(path) {
-                return Err(Error::Usage(format!("{name} is a scene itself")));
-            }
-            if results[i + 1..].contains(path) {
-                return Err(Error::Usage(format!("{name} is named for two results")));
-            }
-        }
+        files::distinct(&self.scenes, results.into_iter().flatten())?;
         if let Some(path) = &self.output
             && !canvas::is_svg(path)
         {
@@ -263,8 +254,8 @@ mod tests {
             ("a --cost m3 --tree tight", "m3 has no tight tree"),
             ("a --cost m3 --samples 2", "on m3 the cut-off is 1/512"),
             ("a -o b.bmp", ".bmp"),
-            ("a -o b.svg --csv b.svg", "two results"),
-            ("a --json a", "is a scene itself"),
+            ("a -o b.svg --csv b.svg", "one file"),
+            ("a --json a", "which is read"),
         ] {
             let error = parse(line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{line}");

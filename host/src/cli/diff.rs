@@ -1,7 +1,8 @@
 //! Arguments of `octray diff`.
 
-use super::value;
+use super::{files, value};
 use crate::diff::{Bounds, DiffJob, Share};
+use crate::error::Error;
 use crate::picture::{RasDepth, Target};
 use clap::Args;
 use std::path::PathBuf;
@@ -49,8 +50,13 @@ const BOUNDS: &str = "Bounds";
 
 impl DiffArgs {
     /// The job that these arguments ask for.
-    pub fn job(self) -> DiffJob {
-        DiffJob {
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the heat map would replace a picture.
+    pub fn job(self) -> Result<DiffJob, Error> {
+        let heat = self.output.as_ref().map(|target| &target.path);
+        files::distinct([&self.a, &self.b], heat)?;
+        Ok(DiffJob {
             a: self.a,
             b: self.b,
             heat: self.output,
@@ -63,6 +69,6 @@ impl DiffArgs {
                 beyond_1: self.max_beyond_1,
                 beyond_8: self.max_beyond_8,
             },
-        }
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Arguments of `octray measure`.
 
-use super::value;
+use super::{files, value};
 use crate::canvas;
 use crate::error::Error;
 use crate::measure::board::{self, BOARDS, Board};
@@ -73,17 +73,10 @@ impl MeasureArgs {
     /// The job that these arguments ask for: nothing in it twice.
     ///
     /// # Errors
-    /// If a result would replace a scene or the other result.
+    /// [`Error::Usage`] if a result would replace a scene or another result, or a chart has nothing to show.
     pub fn job(self) -> Result<MeasureJob, Error> {
-        for path in self.json.iter().chain(&self.csv).chain(&self.chart) {
-            if self.scenes.contains(path) {
-                let name = path.display();
-                return Err(Error::Usage(format!("{name} is a scene itself")));
-            }
-        }
-        if self.json.is_some() && self.json == self.csv {
-            return Err(Error::Usage("--json and --csv name the same file".into()));
-        }
+        let results = [&self.json, &self.csv, &self.chart];
+        files::distinct(&self.scenes, results.into_iter().flatten())?;
         if let Some(path) = &self.chart
             && !canvas::is_svg(path)
         {
@@ -94,10 +87,6 @@ impl MeasureArgs {
             named => value::once(named.iter().flatten().copied(), |a, b| a.name == b.name),
         };
         if self.chart.is_some() {
-            if self.chart == self.csv || self.chart == self.json {
-                let why = "--chart names the file of another result";
-                return Err(Error::Usage(why.into()));
-            }
             let measured = |name: &str| boards.iter().any(|board| board.name == name);
             if !CORES.iter().any(|(a, b)| measured(a) && measured(b)) {
                 let why = "--chart needs m4 and m4f, or rv32imac and rv32imafc, among the targets";

@@ -1,6 +1,6 @@
 //! Arguments of `octray plan`.
 
-use super::value;
+use super::{files, value};
 use crate::error::Error;
 use crate::measure::board::{self, Board};
 use crate::plan::job::{Bounds, Numbers, PlanJob, memory};
@@ -55,12 +55,9 @@ impl PlanArgs {
     /// The job that these arguments ask for.
     ///
     /// # Errors
-    /// If the plan would replace the scene.
+    /// [`Error::Usage`] if the plan would replace the scene.
     pub fn job(self) -> Result<PlanJob, Error> {
-        if self.emit.as_ref() == Some(&self.scene) {
-            let name = self.scene.display();
-            return Err(Error::Usage(format!("{name} is the scene itself")));
-        }
+        files::distinct([&self.scene], &self.emit)?;
         // A name that names no board was refused.
         let board = *(self.target.first()).ok_or_else(|| Error::Usage("no board".into()))?;
         let (flash, ram) = memory(board);

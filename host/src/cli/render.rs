@@ -1,6 +1,6 @@
 //! Arguments of `octray render`.
 
-use super::value;
+use super::{files, value};
 use crate::deal::Policy;
 use crate::error::Error;
 use crate::job::{RenderJob, StatsFormat, WorkOptions};
@@ -9,7 +9,6 @@ use crate::packing;
 use crate::picture::{RasDepth, Target};
 use clap::{Args, value_parser};
 use octray_engine::options::{Arith, DEEPEST, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
-use std::fs;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -125,15 +124,7 @@ impl RenderArgs {
                 Target::new(name.into()).map_err(Error::Usage)?
             }
         };
-        if let (Ok(scene), Ok(output)) = (
-            fs::canonicalize(&self.scene),
-            fs::canonicalize(&output.path),
-        ) && scene == output
-        {
-            return usage(
-                "the picture would replace the scene file; name another one with --output",
-            );
-        }
+        files::distinct([&self.scene], [&output.path])?;
         Ok(RenderJob {
             scene: self.scene,
             output,
@@ -308,15 +299,5 @@ mod tests {
             }
             false => assert!(told("").contains("--features mpi"), "{}", told("")),
         }
-    }
-
-    #[test]
-    fn the_picture_never_replaces_the_scene() {
-        let folder = tempfile::tempdir().unwrap();
-        let scene = folder.path().join("a.ppm");
-        fs::write(&scene, "v 0 0 -1").unwrap();
-        let name = scene.display();
-        let error = parse(&format!("{name} -o {name}")).unwrap().job();
-        assert!(matches!(error, Err(Error::Usage(_))));
     }
 }

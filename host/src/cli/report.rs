@@ -1,6 +1,6 @@
 //! Arguments of `octray report`.
 
-use super::value;
+use super::{files, value};
 use crate::chart::ChartJob;
 use crate::chart::cost::CostKind;
 use crate::chart::point::{Against, Wishes};
@@ -52,10 +52,7 @@ impl ReportArgs {
     /// # Errors
     /// [`Error::Usage`] if the page would replace a scene.
     pub fn job(self) -> Result<ReportJob, Error> {
-        if self.scenes.contains(&self.output) {
-            let name = self.output.display();
-            return Err(Error::Usage(format!("{name} is a scene itself")));
-        }
+        files::distinct(&self.scenes, [&self.output])?;
         let ariths = value::once(self.arith, |a, b| a == b);
         let costs = value::once(self.cost, |a, b| a.name() == b.name());
         Ok(ReportJob {
@@ -121,6 +118,6 @@ mod tests {
     #[test]
     fn a_page_does_not_replace_a_scene() {
         let error = job("a.scene -o a.scene").unwrap_err();
-        assert!(error.to_string().contains("is a scene itself"), "{error}");
+        assert!(error.to_string().contains("which is read"), "{error}");
     }
 }

@@ -1,6 +1,6 @@
 //! Arguments of `octray schedule`.
 
-use super::value;
+use super::{files, value};
 use crate::canvas;
 use crate::deal::Policy;
 use crate::error::Error;
@@ -78,21 +78,12 @@ impl ScheduleArgs {
     /// The job that these arguments ask for.
     ///
     /// # Errors
-    /// [`Error::Usage`] when no packet is left with four pixels per ray, two files have the same name, or the
-    /// chart's name says nothing known.
+    /// [`Error::Usage`] when no packet is left with four pixels per ray, a result would replace the scene or
+    /// another result, or the chart's name says nothing known.
     pub fn job(self) -> Result<SweepJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
-        if self.output.is_some() && self.output == self.csv {
-            return usage("--output and --csv name the same file");
-        }
-        if self
-            .output
-            .iter()
-            .chain(&self.csv)
-            .any(|path| *path == self.scene)
-        {
-            return usage("a result would replace the scene file");
-        }
+        let results = [&self.output, &self.csv];
+        files::distinct([&self.scene], results.into_iter().flatten())?;
         if let Some(path) = self.output.iter().find(|path| !canvas::is_svg(path)) {
             Target::new(path.clone()).map_err(Error::Usage)?;
         }

@@ -1,6 +1,7 @@
 //! Arguments of `octray stability`.
 
-use super::value;
+use super::{files, value};
+use crate::error::Error;
 use crate::stability::StabilityJob;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -45,8 +46,13 @@ pub struct StabilityArgs {
 
 impl StabilityArgs {
     /// The job that these arguments ask for.
-    pub fn job(self) -> StabilityJob {
-        StabilityJob {
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if two results are one file.
+    pub fn job(self) -> Result<StabilityJob, Error> {
+        let results = [&self.json, &self.csv];
+        files::distinct([""; 0], results.into_iter().flatten())?;
+        Ok(StabilityJob {
             methods: if self.methods.is_empty() {
                 sweep::ALL.to_vec()
             } else {
@@ -59,7 +65,7 @@ impl StabilityArgs {
             threads: self.threads.unwrap_or_else(|| {
                 std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
             }),
-        }
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Arguments of `octray tables`.
 
-use super::value;
+use super::{files, value};
 use crate::error::Error;
 use crate::simulate::Machine;
 use crate::tables::TablesJob;
@@ -61,8 +61,10 @@ impl TablesArgs {
     /// The job that these arguments ask for.
     ///
     /// # Errors
-    /// [`Error::Usage`] if charts are asked for without their tables.
+    /// [`Error::Usage`] if charts are asked for without their tables, or the output would replace a file that is read.
     pub fn job(self) -> Result<TablesJob, Error> {
+        let inputs = [&self.thesis, &self.record];
+        files::distinct(inputs.into_iter().flatten(), &self.output)?;
         let mut tables = self.tables;
         if tables.is_empty() {
             tables = Number::value_variants().to_vec();

@@ -1,6 +1,6 @@
 //! What the emulator's plugin has counted, read from its report.
 
-use octray_count::Kind;
+use octray_instruction::Kind;
 use std::collections::BTreeMap;
 
 /// Calls of a watched function.

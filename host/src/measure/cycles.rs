@@ -3,7 +3,7 @@
 //! instructions, stays a range.
 
 use super::count::Count;
-use octray_count::Kind;
+use octray_instruction::Kind;
 use serde::Serialize;
 
 /// At least and at most so many cycles.
