@@ -9,7 +9,7 @@
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
-//! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, which says all of the above but the scene | none |
+//! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
 //! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 0 |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
@@ -83,7 +83,9 @@ fn baked() -> Result<String, String> {
         if let Tree::Device(_) = plan.tree {
             println!("cargo::rustc-cfg=octray_device_tree");
         }
-        return baked_as(&scene, plan.arith, &plan.options(&name));
+        let options = plan.options(&scene, &name);
+        let options = options.map_err(|error| format!("OCTRAY_PLAN: {error}"))?;
+        return baked_as(&scene, plan.arith, &options);
     }
     let size = variable("OCTRAY_SIZE", "160x120");
     let (width, height) = (size.split_once('x'))

@@ -17,7 +17,7 @@ use octray::measure::row::{COLUMNS, Row};
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
-use octray_engine::options::Arith;
+use octray_engine::options::{Arith, PixelsPerRay};
 use octray_scenes::generate::{Kind, Spec, generate};
 use std::error::Error;
 use std::fs::{self, File};
@@ -159,6 +159,7 @@ fn job(scenes: Vec<PathBuf>, tree: TreeKind, boards: &[&'static Board]) -> Measu
         view: View {
             size: (64, 48),
             max_depth: 8,
+            pixels_per_ray: PixelsPerRay::One,
         },
         build: BuildOptions {
             tree,

@@ -92,7 +92,13 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         rays: None,
     };
     let (arith, options) = match &plan {
-        Some(plan) => (plan.arith, plan.options(&name)),
+        Some(plan) => {
+            let options = plan.options(&scene, &name);
+            (
+                plan.arith,
+                options.map_err(|why| Error::Failed(why.to_string()))?,
+            )
+        }
         None => (job.arith.name(), chosen),
     };
     let baked = bake(&scene, arith, &options).map_err(|error| Error::Failed(error.to_string()))?;

@@ -184,10 +184,21 @@ fn what_is_emitted_is_baked() {
     let plan: Plan = fs::read_to_string(&path).unwrap().parse().unwrap();
     let baked = octray(&format!("bake {scene} --plan {}", path.display()));
     let read = check::read(&root().join(scene)).unwrap();
-    let expected = bake(&read, plan.arith, &plan.options("figure-22")).unwrap();
+    let expected = {
+        let options = plan.options(&read, "figure-22").unwrap();
+        bake(&read, plan.arith, &options).unwrap()
+    };
     assert_eq!(String::from_utf8(baked.stdout).unwrap(), expected.source);
     assert_eq!(expected.rays, plan.rays);
-    // A file that is no plan, and a plan beside what it says itself.
+    // Another scene's plan, a file that is no plan, and a plan beside what it says itself.
+    let other = octray(&format!(
+        "bake scenes/glass.scene --plan {}",
+        path.display()
+    ));
+    let told = String::from_utf8_lossy(&other.stderr);
+    assert_eq!(other.status.code(), Some(1));
+    assert!(told.contains("made for another scene"), "{told}");
+    assert!(other.stdout.is_empty());
     let wrong = octray(&format!("bake {scene} --plan {scene}"));
     assert_eq!(wrong.status.code(), Some(1));
     let both = octray(&format!(

@@ -1,12 +1,13 @@
 //! A plan: everything that is chosen about a scene before it is baked, and the small file that carries
 //! it to `octray bake --plan` and to the firmware's build.
 //!
-//! The file is text: a name and a value to a line, in any order, `#` starts a comment.
+//! The file is text: a name and a value to a line, in any order, `#` starts a comment. What was chosen holds for
+//! one scene only (the rays that wait were counted), so the plan names its [`fingerprint()`].
 //!
 //! ```
 //! use octray_scenes::plan::Plan;
 //!
-//! let plan: Plan = "arith i18f14\nsize 64x48\npixels-per-ray 1\nmax-depth 3\n\
+//! let plan: Plan = "scene 0123456789abcdef\narith i18f14\nsize 64x48\npixels-per-ray 1\nmax-depth 3\n\
 //!     cut-off 0.001953125\ntree packed\ntree-depth 2\nleaf-size 4\nrays 1\n".parse()?;
 //! assert_eq!(plan.max_depth, 3);
 //! assert_eq!(plan.to_string().parse(), Ok(plan));
@@ -14,16 +15,21 @@
 //! ```
 
 use crate::bake::{FORMATS, Options, Tree};
+use crate::model::Scene;
 use crate::quantise::View;
+use fnv::FnvHasher;
 use octray_core::octree;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
+use std::hash::Hasher;
 use std::str::FromStr;
 use thiserror::Error;
 
 /// What is chosen about a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
+    /// The [`fingerprint()`] of the scene.
+    pub scene: u64,
     /// The arithmetic, one of [`FORMATS`].
     pub arith: &'static str,
     /// Columns and rows, 1 to 65535 each.
@@ -40,10 +46,30 @@ pub struct Plan {
     pub rays: usize,
 }
 
+/// Tells scenes apart: FNV-1a, 64 bits, over the text that [`write()`](crate::write()) makes of the scene. So
+/// comments, spaces and the dialect of its file do not count.
+///
+/// # Panics
+/// As [`write()`](crate::write()).
+pub fn fingerprint(scene: &Scene) -> u64 {
+    let mut text = Vec::new();
+    // Nothing fails where there is memory.
+    crate::write(scene, &mut text).unwrap_or_default();
+    let mut hasher = FnvHasher::default();
+    hasher.write(&text);
+    hasher.finish()
+}
+
 impl Plan {
-    /// What to bake of a scene of this name.
-    pub fn options<'a>(&self, name: &'a str) -> Options<'a> {
-        Options {
+    /// What to bake of its scene, which is told to be of this name.
+    ///
+    /// # Errors
+    /// [`PlanError::Scene`] if it is another scene's plan.
+    pub fn options<'a>(&self, scene: &Scene, name: &'a str) -> Result<Options<'a>, PlanError> {
+        if self.scene != fingerprint(scene) {
+            return Err(PlanError::Scene);
+        }
+        Ok(Options {
             name,
             view: View {
                 size: Some(self.size),
@@ -54,7 +80,7 @@ impl Plan {
             cut_off: self.cut_off,
             tree: self.tree,
             rays: Some(self.rays),
-        }
+        })
     }
 }
 
@@ -62,6 +88,7 @@ impl Plan {
 impl Display for Plan {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
+            scene,
             arith,
             size: (width, height),
             pixels_per_ray,
@@ -77,7 +104,7 @@ impl Display for Plan {
         };
         write!(
             f,
-            "arith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
+            "scene {scene:016x}\narith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
              max-depth {max_depth}\ncut-off {cut_off}\ntree {kind}\n"
         )?;
         if let Some(octree::Options { depth, leaf_size }) = grown {
@@ -97,6 +124,9 @@ pub enum PlanError {
     /// A name that is not there.
     #[error("plan: no line tells {0}")]
     Missing(&'static str),
+    /// It was made for another scene.
+    #[error("plan: made for another scene, or for this one before it was changed: plan it again")]
+    Scene,
     /// A value that is none.
     #[error("plan: {name} {found}: expected {expected}")]
     Value {
@@ -117,6 +147,10 @@ impl FromStr for Plan {
         let whole = "a whole number";
         let pixels = "columns x rows, each from 1 to 65535, such as 160x120";
         let kinds = "packed, device or none";
+        let scene = lines.take("scene", "16 hexadecimal digits", |text| {
+            let digits = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
+            u64::from_str_radix(text, 16).ok().filter(|_| digits)
+        })?;
         let arith = lines.take("arith", "an arithmetic", |name| {
             FORMATS.into_iter().find(|known| *known == name)
         })?;
@@ -161,6 +195,7 @@ impl FromStr for Plan {
         match lines.0.pop_first() {
             Some((name, value)) => Err(PlanError::Line(format!("{name} {value}"))),
             None => Ok(Self {
+                scene,
                 arith,
                 size,
                 pixels_per_ray,
@@ -211,6 +246,7 @@ mod tests {
 
     fn example() -> Plan {
         Plan {
+            scene: 0x12,
             arith: "i18f14",
             size: (160, 120),
             pixels_per_ray: 4,
@@ -269,6 +305,11 @@ mod tests {
                 "plan: max-depth 65: expected 0 to 64",
             ),
             (
+                "0000000000000012",
+                "12",
+                "plan: scene 12: expected 16 hexadecimal digits",
+            ),
+            (
                 "-ray 4",
                 "-ray 2",
                 "plan: pixels-per-ray 2: expected 1 or 4",
@@ -277,5 +318,20 @@ mod tests {
             assert_eq!(with(line, other).to_string(), told);
         }
         assert!(matches!(with("160x120", "0x3"), PlanError::Value { .. }));
+    }
+
+    #[test]
+    fn a_plan_is_of_one_scene() {
+        let scene = |text| crate::parse(text).unwrap();
+        let ball = "v 0 0 500 f 1 0.5 0.2 0.8 0.2 10 0 1 s 0 0 -50 40";
+        let planned = Plan {
+            scene: fingerprint(&scene(ball)),
+            ..example()
+        };
+        let commented = ball.replace(" s ", " # a ball\n s ");
+        assert!(planned.options(&scene(&commented), "ball").is_ok());
+        let glass = ball.replace("10 0 1", "10 0.5 1.5");
+        let refused = planned.options(&scene(&glass), "ball");
+        assert_eq!(refused, Err(PlanError::Scene));
     }
 }

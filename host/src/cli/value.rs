@@ -28,15 +28,20 @@ pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
-/// The most threads or processors that can be asked for.
+/// The largest count of processors or threads, and side of a packet: no picture has more rows.
 const MOST: u32 = 65_536;
 
-/// A number of threads.
+/// A whole number from 1 to [`MOST`].
+pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
+    positive(text)
+        .ok()
+        .filter(|number: &NonZeroU32| number.get() <= MOST)
+        .ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
+}
+
+/// The same for a number of threads.
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
-    let number = positive(text).ok();
-    number
-        .filter(|n: &NonZeroUsize| n.get() <= MOST as usize)
-        .ok_or_else(|| format!("expected a number of threads from 1 to {MOST}"))
+    NonZeroUsize::try_from(count(text)?).map_err(|cause| cause.to_string())
 }
 
 /// Whole numbers, none of them 0.
@@ -139,10 +144,13 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_threads() {
+    fn counts() {
+        assert_eq!(count("1").map(NonZeroU32::get), Ok(1));
+        assert_eq!(count("65536").map(NonZeroU32::get), Ok(65_536));
         assert_eq!(threads("65536").map(NonZeroUsize::get), Ok(65_536));
-        for wrong in ["0", "65537", "100000000000", "18446744073709551615", "x"] {
-            assert!(threads(wrong).is_err(), "{wrong}");
+        assert!(threads("18446744073709551615").is_err());
+        for wrong in ["", "0", "65537", "4294967296", "-1", "1.5"] {
+            assert!(count(wrong).is_err(), "{wrong}");
         }
     }
 

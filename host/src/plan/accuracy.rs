@@ -11,7 +11,7 @@ use octray_core::octree;
 use octray_engine::options::DEEPEST;
 use octray_scenes::bake::Tree;
 use octray_scenes::model::Scene;
-use octray_scenes::plan::Plan;
+use octray_scenes::plan::{Plan, fingerprint};
 use octray_scenes::quantise::{Bound, bounds};
 use serde::Serialize;
 
@@ -140,6 +140,7 @@ impl Scope<'_> {
     /// A plan with a tree like any other, and room for all rays.
     pub fn plan(&self, arith: &'static str, pixels_per_ray: u32, max_depth: u32) -> Plan {
         Plan {
+            scene: fingerprint(self.scene),
             arith,
             size: self.size,
             pixels_per_ray,

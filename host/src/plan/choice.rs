@@ -121,8 +121,9 @@ impl Chooser<'_> {
             options.depth = probe.depth;
         }
         let scene = self.scope.scene;
-        let baked = bake(scene, plan.arith, &plan.options(""))
-            .map_err(|why| Error::Failed(why.to_string()))?;
+        let failed = Error::Failed;
+        let options = (plan.options(scene, "")).map_err(|why| failed(why.to_string()))?;
+        let baked = bake(scene, plan.arith, &options).map_err(|why| failed(why.to_string()))?;
         let lent = Parts::of(&plan, &baked, scene.lights.len());
         let weights = self.weights(plan.arith)?;
         Ok(Candidate {

@@ -10,7 +10,7 @@ use octray_core::octree;
 use octray_scenes::bake::{Baked, Tree, bake};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::Plan;
+use octray_scenes::plan::{Plan, fingerprint};
 use serde::Deserialize;
 use std::io::Read;
 use std::path::Path;
@@ -132,6 +132,7 @@ impl Line {
             leaf_size: if dear { 1 } else { 2 },
         };
         let mut plan = Plan {
+            scene: fingerprint(scene),
             arith: (formats.into_iter().find(|name| *name == self.format))
                 .ok_or_else(|| unknown(&self.format))?,
             size: (self.width, self.height),
@@ -145,9 +146,12 @@ impl Line {
             },
             rays: 0,
         };
+        let options = plan
+            .options(scene, "")
+            .map_err(|why| unknown(&why.to_string()))?;
         let options = octray_scenes::bake::Options {
             rays: None,
-            ..plan.options("")
+            ..options
         };
         let baked = bake(scene, plan.arith, &options).map_err(|why| unknown(&why.to_string()))?;
         plan.rays = baked.rays;
@@ -163,8 +167,8 @@ impl Line {
         let plan = self.plan(&scene)?;
         let probe = Probe::render(&scene, &plan, interrupt)?;
         let failed = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
-        let baked =
-            bake(&scene, plan.arith, &plan.options("")).map_err(|why| failed(&why.to_string()))?;
+        let options = (plan.options(&scene, "")).map_err(|why| failed(&why.to_string()))?;
+        let baked = bake(&scene, plan.arith, &options).map_err(|why| failed(&why.to_string()))?;
         let board = (BOARDS.iter())
             .find(|board| board.name == self.board)
             .ok_or_else(|| failed(&self.board))?;

@@ -14,7 +14,7 @@ const CELL: (i32, i32) = (40, 16);
 const LEFT: i32 = 120;
 const MARGIN: i32 = 16;
 /// From the top of a cell to the top of its text, so that digits are in its middle.
-const DROP: i32 = 3;
+const DROP: i32 = 4;
 const HEAD: i32 = 56;
 const TITLE: i32 = 26;
 const FOOT: i32 = 42;
