@@ -38,10 +38,13 @@ fn run(folder: &Path, ranks: u32, line: &str) -> Output {
     command.args(line.split_whitespace()).output().unwrap()
 }
 
-fn alone(folder: &Path, line: &str) {
+/// The statistics of a rendering on one machine.
+fn alone(folder: &Path, line: &str) -> Value {
     let mut command = Command::new(OCTRAY);
     command.current_dir(folder).args(line.split_whitespace());
-    assert!(command.stdout(Stdio::null()).status().unwrap().success());
+    let output = command.args(["--stats", "json"]).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -84,17 +87,43 @@ fn ranks_draw_the_picture_of_one_machine() {
             assert_eq!(stats["threads"], ranks);
             let idle = stats["idle"].as_array().map(Vec::len);
             assert_eq!(idle, Some(ranks as usize));
-            let count = |field: &str| stats["messages"][field].as_u64().unwrap();
+            let messages = &stats["messages"];
+            let count = |field: &str| messages[field].as_u64().unwrap();
             let packets = stats["packets"].as_u64().unwrap();
             assert!(count("count") <= packets);
             if ranks == 1 {
                 assert_eq!(count("bytes"), 0);
             }
+            if count("count") > 0 {
+                assert!(messages["hand_out"].as_f64().unwrap() > 0.0);
+            }
+            if packing.contains("static") {
+                // Of two ranks the second one has every other packet.
+                assert_eq!((ranks, count("count")), (2, packets / 2));
+            }
+            // In the same packets, whose number tests depend on.
+            let rows = &stats["packet"]["rows"];
+            let columns = match stats["packet"]["columns"].as_u64() {
+                Some(columns) => format!("--packet-columns {columns}"),
+                None => String::new(),
+            };
+            let line = format!(
+                "render a.scene --arith {arith} -o c.{ending} --packet-rows {rows} {columns}"
+            );
+            let same = alone(path, &line);
+            for field in ["packets", "rays", "steps", "tests", "hits", "saturations"] {
+                assert_eq!(
+                    stats[field], same[field],
+                    "{ranks} ranks {packing}: {field}"
+                );
+            }
         }
     }
     assert_eq!(
         names(path),
-        ["a.scene", "b.pfm", "b.png", "one.pfm", "one.png"]
+        [
+            "a.scene", "b.pfm", "b.png", "c.pfm", "c.png", "one.pfm", "one.png"
+        ]
     );
 }
 
