@@ -147,7 +147,6 @@ impl Bench<'_> {
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
             ("OCTRAY_TREE", options.tree.name()),
-            ("OCTRAY_COUNTS", "0"),
         ];
         let firmware = ("octray-firmware", None);
         (self.workspace).firmware(

@@ -10,6 +10,7 @@ use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
 use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_scenes::bake::CUT_OFF;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -22,9 +23,6 @@ pub struct View {
     /// The most bounces.
     pub max_depth: u32,
 }
-
-/// Below which weight the firmware traces no ray.
-const CUT_OFF: f64 = 1.0 / 512.0;
 
 /// The host's picture.
 #[derive(Clone, Debug)]
