@@ -141,6 +141,29 @@ impl Arith {
     }
 }
 
+impl Arith {
+    /// Its name, and the number format that was used where that is another: `auto: i8f24`.
+    pub fn with_format(self, format: &str) -> String {
+        match self.name() {
+            name if name == format || format.is_empty() => name.into(),
+            name => format!("{name}: {format}"),
+        }
+    }
+}
+
+impl TreeOptions {
+    /// A tree of this kind, all else as suits it.
+    pub fn of(kind: Tree) -> Self {
+        Self {
+            kind,
+            depth: None,
+            leaf_size: None,
+            arena: None,
+            link: Link::Shape,
+        }
+    }
+}
+
 impl PixelsPerRay {
     /// How many.
     pub fn number(self) -> u32 {

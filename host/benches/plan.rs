@@ -18,7 +18,7 @@ use octray::output;
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
-use octray_engine::options::Arith;
+use octray_engine::options::{Arith, PixelsPerRay};
 use octray_scenes::generate::{Kind, Spec, generate};
 use std::error::Error;
 use std::fs::{self, File};
@@ -165,6 +165,7 @@ fn job(scenes: Vec<PathBuf>, tree: TreeKind, boards: &[&'static Board]) -> Measu
         view: View {
             size: (64, 48),
             max_depth: 8,
+            pixels_per_ray: PixelsPerRay::One,
         },
         build: BuildOptions {
             tree,

@@ -101,8 +101,24 @@ pub fn write<B: DrawingBackend>(
     height: i32,
     across: HPos,
 ) -> Drawn<B> {
+    write_in(area, text, place, height, across, BLACK)
+}
+
+/// The same in another colour than black.
+///
+/// # Errors
+/// What the backend says.
+pub fn write_in<B: DrawingBackend>(
+    area: &Area<'_, B>,
+    text: &str,
+    place: (i32, i32),
+    height: i32,
+    across: HPos,
+    ink: RGBColor,
+) -> Drawn<B> {
     let style = ("sans-serif", height)
         .into_text_style(area)
+        .color(&ink)
         .pos(Pos::new(across, VPos::Top));
     area.draw(&Text::new(text, place, style))
 }

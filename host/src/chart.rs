@@ -19,18 +19,16 @@ pub mod setting;
 use crate::canvas;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::measure::FIGURES;
-use crate::measure::frames::Named;
-use crate::measure::workspace::Workspace;
+use crate::measure::frames::{self, Named};
 use crate::output;
 use crate::progress::Progress;
-use accuracy::Judge;
+use accuracy::{Accuracy, Judge};
 use cost::{CostKind, Meter};
 use figure::Chart;
 use point::{Panel, Wishes};
 use setting::{Grid, Setting};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Everything `octray chart` was asked for. Nothing contradicts, and there is at least one setting and one kind
 /// of cost.
@@ -81,34 +79,71 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     })
 }
 
-/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
-///
-/// # Errors
-/// If one cannot be read, or is wrong.
-pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
-    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
-    if !named.is_empty() {
-        let named = named.iter();
-        return named.map(|path| read(path.clone(), path)).collect();
-    }
-    let root = Workspace::root()?;
-    (FIGURES.iter())
-        .map(|name| read(name.into(), &root.join(name)))
-        .collect()
-}
-
 /// The points of every scene: a panel for each kind of cost.
 ///
 /// # Errors
 /// When a tool is missing, a scene is refused, or there is no point at all.
 pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Error> {
-    let scenes = scenes(&job.scenes)?;
-    let meter = Meter::new(job, interrupt)?;
+    let scenes = frames::scenes(&job.scenes)?;
+    // What is missing is told before any work.
+    let meter = Meter::new(job, &job.costs, interrupt)?;
+    panels(&judge(scenes, job, interrupt)?, job, &job.costs, &meter)
+}
+
+/// A scene, and how far off its picture is with each setting; or why it has none.
+pub struct Judged {
+    path: PathBuf,
+    scene: Named,
+    outcomes: Vec<(Setting, Result<Accuracy, String>)>,
+}
+
+/// How far off every picture of every scene is.
+///
+/// # Errors
+/// When a scene does not even fit f64, or the work is interrupted.
+pub fn judge(
+    scenes: Vec<(PathBuf, Named)>,
+    job: &ChartJob,
+    interrupt: &Interrupt,
+) -> Result<Vec<Judged>, Error> {
+    let settings = job.grid.settings();
+    let progress = Progress::new("judging");
+    progress.start(scenes.len() * settings.len());
+    let judged = |(path, scene): (PathBuf, Named)| {
+        let mut judge = Judge::new(&scene.scene, job, interrupt)?;
+        let outcomes = (settings.iter())
+            .map(|setting| {
+                let accuracy = judge.accuracy(setting)?;
+                progress.step();
+                Ok((*setting, accuracy))
+            })
+            .collect::<Result<_, Error>>()?;
+        Ok(Judged {
+            path,
+            scene,
+            outcomes,
+        })
+    };
+    scenes.into_iter().map(judged).collect()
+}
+
+/// The points of every scene that has been judged: a panel for each of some kinds of cost.
+///
+/// # Errors
+/// When a tool fails, the work is interrupted, or there is no point at all.
+pub fn panels(
+    judged: &[Judged],
+    job: &ChartJob,
+    costs: &[CostKind],
+    meter: &Meter<'_>,
+) -> Result<Vec<Panel>, Error> {
     let progress = Progress::new("measuring");
-    progress.start(scenes.len() * job.grid.settings().len() * (1 + job.costs.len()));
+    progress.start(judged.len() * job.grid.settings().len() * costs.len());
     let mut panels = Vec::new();
-    for (path, scene) in &scenes {
-        panels.extend(of_scene(scene, path, job, &meter, &progress)?);
+    for scene in judged {
+        for &kind in costs {
+            panels.push(scene.panel(kind, job, meter, &progress)?);
+        }
     }
     drop(progress);
     if panels.iter().all(|panel| panel.points.is_empty()) {
@@ -119,33 +154,32 @@ pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Erro
     Ok(panels)
 }
 
-/// A panel for each kind of cost.
-fn of_scene(
-    scene: &Named,
-    path: &Path,
-    job: &ChartJob,
-    meter: &Meter<'_>,
-    progress: &Progress,
-) -> Result<Vec<Panel>, Error> {
-    let settings = job.grid.settings();
-    let mut judge = Judge::new(&scene.scene, job, meter.interrupt)?;
-    let mut judged = Vec::new();
-    for setting in &settings {
-        judged.push(judge.accuracy(setting)?);
-        progress.step();
-    }
-    let fits = |(setting, judged): (&Setting, &Result<_, _>)| judged.is_ok().then_some(*setting);
-    let good: Vec<Setting> = (settings.iter().zip(&judged)).filter_map(fits).collect();
-    let mut panels = Vec::new();
-    for &kind in &job.costs {
-        let mut costs = meter.costs(kind, scene, &good, progress)?.into_iter();
-        let measured = judged.iter().map(|judged| {
-            let accuracy = judged.clone()?;
-            let cost = costs.next().unwrap_or_else(|| Err("not measured".into()))?;
-            Ok((accuracy, cost))
+impl Judged {
+    /// The scene's points on one scale of cost.
+    fn panel(
+        &self,
+        kind: CostKind,
+        job: &ChartJob,
+        meter: &Meter<'_>,
+        progress: &Progress,
+    ) -> Result<Panel, Error> {
+        let fits =
+            |(setting, accuracy): &(Setting, Result<_, _>)| accuracy.is_ok().then_some(*setting);
+        let good: Vec<Setting> = self.outcomes.iter().filter_map(fits).collect();
+        let mut costs = meter.costs(kind, &self.scene, &good, progress)?.into_iter();
+        let measured = self.outcomes.iter().map(|(setting, accuracy)| {
+            let measured = accuracy.clone().and_then(|accuracy| {
+                let cost = costs.next().unwrap_or_else(|| Err("not measured".into()))?;
+                Ok((accuracy, cost))
+            });
+            (*setting, measured)
         });
-        let measured: Vec<_> = settings.iter().copied().zip(measured).collect();
-        panels.push(Panel::new(&scene.name, path, kind, job, measured));
+        Ok(Panel::new(
+            &self.scene.name,
+            &self.path,
+            kind,
+            job,
+            measured.collect(),
+        ))
     }
-    Ok(panels)
 }

@@ -2,7 +2,7 @@
 
 use crate::deal::Policy;
 use crate::packets::Shape;
-use crate::picture::{RasDepth, Target};
+use crate::picture::{Format, RasDepth, Target};
 use clap::ValueEnum;
 use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use std::num::NonZeroUsize;
@@ -28,6 +28,30 @@ pub struct RenderJob {
     pub work: WorkOptions,
     /// What to tell about it.
     pub stats: StatsFormat,
+}
+
+impl RenderJob {
+    /// For a picture that stays in memory: no file is named.
+    pub fn in_memory(
+        arith: Arith,
+        tree: TreeOptions,
+        view: ViewOptions,
+        work: WorkOptions,
+    ) -> Self {
+        Self {
+            scene: PathBuf::new(),
+            output: Target {
+                path: PathBuf::new(),
+                format: Format::Png,
+            },
+            ras_depth: RasDepth::default(),
+            arith,
+            tree,
+            view,
+            work,
+            stats: StatsFormat::None,
+        }
+    }
 }
 
 /// How the work is dealt out.

@@ -38,15 +38,6 @@ use row::Row;
 use std::path::PathBuf;
 use workspace::{Program, Workspace};
 
-/// The scenes that are measured if none is named.
-pub(crate) const FIGURES: [&str; 5] = [
-    "scenes/figure-19.scene",
-    "scenes/figure-20.scene",
-    "scenes/figure-21.scene",
-    "scenes/figure-22.scene",
-    "scenes/figure-23.scene",
-];
-
 /// Measure, and tell.
 ///
 /// # Errors
@@ -80,13 +71,8 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// fails is a row that says so.
 pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report<Row>, Error> {
     let root = Workspace::root()?;
-    let scenes = match &*job.scenes {
-        [] => FIGURES.iter().map(|name| root.join(name)).collect(),
-        scenes => scenes.to_vec(),
-    };
-    let scenes: Vec<_> = (scenes.iter())
-        .map(|path| Named::read(path))
-        .collect::<Result<_, _>>()?;
+    let scenes = frames::scenes(&job.scenes)?.into_iter();
+    let scenes: Vec<Named> = scenes.map(|(_, scene)| scene).collect();
     board::require(&job.boards, &root)?;
     let workspace = Workspace::open(root)?;
     let plugin = plugin(&workspace, interrupt)?;

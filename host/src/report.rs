@@ -10,9 +10,10 @@ mod limits;
 mod page;
 mod pictures;
 
-use crate::chart::{self, ChartJob};
+use crate::chart::ChartJob;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::measure::frames;
 use crate::output;
 use crate::progress::Progress;
 use octray_engine::options::Arith;
@@ -45,15 +46,15 @@ pub struct ReportJob {
 /// missing that counts costs, the page says so.
 pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::probe(&job.output)?;
-    let scenes = chart::scenes(&job.chart.scenes)?;
+    let scenes = frames::scenes(&job.chart.scenes)?;
     let progress = Progress::new("rendering");
     progress.start(scenes.len() * job.ariths.len());
-    let pictures = (scenes.iter())
-        .map(|(path, scene)| pictures::section(scene, path, job, &progress, interrupt))
+    let pictures = (scenes.iter().enumerate())
+        .map(|(i, (path, scene))| pictures::section(i, scene, path, job, &progress, interrupt))
         .collect::<Result<Vec<Section>, _>>()?;
     drop(progress);
     let mut sections = pictures;
-    sections.push(costs::section(&job.chart, interrupt)?);
+    sections.push(costs::section(scenes, &job.chart, interrupt)?);
     sections.extend(boards::sections()?);
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();

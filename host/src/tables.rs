@@ -1,7 +1,7 @@
 //! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its figures.
 //!
 //! In the order of the data: a [`subject`] in a variant is a trial, which the [`lab`] traces. Of what it counts
-//! [`traced`] makes tables I, II (with [`agreement`]) and IV to VII; [`emulated`] reads III from a record of `octray measure`;
+//! [`traced`] makes tables I, II (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`;
 //! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s figures,
 //! and a [`text`]; VIII and IX become [`chart`]s, too.
 
@@ -10,6 +10,7 @@ pub mod chart;
 pub mod emulated;
 pub mod lab;
 pub mod number;
+pub mod record;
 pub mod shared;
 pub mod subject;
 pub mod table;

@@ -147,26 +147,30 @@ fn instructions_of_this_machine_are_the_same_twice_and_differ_by_arithmetic() {
 #[test]
 fn a_board_counts_for_a_chart_what_it_counts_for_measure() {
     let folder = folder();
-    let line = "a.scene --cost m3 --size 16x12 --arith i16f16 --converged-samples 1 --json a.json";
+    let line = "a.scene --cost m3 --size 16x12 --arith i16f16 --pixels-per-ray 1,4 --converged-samples 1 \
+                --json a.json";
     if run(folder.path(), line).is_none() {
         return;
     }
-    let point = &points(folder.path(), "a.json")[0];
-    let words = point["command"]
-        .as_str()
-        .unwrap()
-        .strip_prefix("octray ")
-        .unwrap();
-    let status = Command::new(cargo_bin!("octray"))
-        .current_dir(folder.path())
-        .args(words.split(' '))
-        .arg("--json=measured.json")
-        .output();
-    assert!(status.unwrap().status.success(), "{words}");
-    let measured: Value = serde_json::from_str(&read(folder.path(), "measured.json")).unwrap();
-    let row = &measured["rows"][0];
-    assert_eq!(row["instructions"].as_f64(), point["cost"].as_f64());
-    assert_eq!(row["psnr"], point["psnr"]);
+    let points = points(folder.path(), "a.json");
+    for point in &points {
+        let command = point["command"].as_str().unwrap();
+        let words = command.strip_prefix("octray ").unwrap();
+        let output = Command::new(cargo_bin!("octray"))
+            .current_dir(folder.path())
+            .args(words.split(' '))
+            .arg("--json=measured.json")
+            .output();
+        assert!(output.unwrap().status.success(), "{words}");
+        let measured: Value = serde_json::from_str(&read(folder.path(), "measured.json")).unwrap();
+        let row = &measured["rows"][0];
+        assert_eq!(row["instructions"].as_f64(), point["cost"].as_f64());
+        assert_eq!(row["pixels_per_ray"], point["pixels_per_ray"]);
+        assert_eq!(row["psnr"], point["psnr"]);
+    }
+    let cost = |i: usize| points[i]["cost"].as_f64().unwrap();
+    let ratio = cost(1) / cost(0);
+    assert!((0.2..0.35).contains(&ratio), "{ratio}");
 }
 
 #[test]

@@ -1,59 +1,121 @@
 //! `octray report` end to end, with costs that need no tool.
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use snapbox::cmd::cargo_bin;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
-fn report(folder: &Path, line: &str) -> Output {
+/// The page of two scenes of one name, in a folder of its own.
+fn report(folder: &Path, name: &str) -> String {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    fs::copy(scenes.join("patches.scene"), folder.join("a b.scene")).unwrap();
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(["report", "a b.scene"])
-        .args(line.split_whitespace())
+    fs::create_dir_all(folder.join("deep")).unwrap();
+    for copy in ["a b.scene", "deep/a b.scene"] {
+        fs::copy(scenes.join("patches.scene"), folder.join(copy)).unwrap();
+    }
+    let output = octray(folder, &["report", "a b.scene", "deep/a b.scene"])
+        .args(["--arith", "i16f16,f32", "--cost", "events"])
+        .args(["--size", "32x24", "--chart-size", "16x12", "-o", name])
         .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    fs::read_to_string(folder.join(name)).unwrap()
+}
+
+fn octray(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(cargo_bin!("octray"));
+    command.current_dir(folder).args(arguments);
+    command
+}
+
+/// Whatever stands between two texts.
+fn between<'a>(page: &'a str, before: &'a str, after: &'a str) -> impl Iterator<Item = &'a str> {
+    let parts = page.split(before).skip(1);
+    parts.filter_map(move |part| Some(part.split_once(after)?.0))
+}
+
+/// The commands below the pictures of the first scene.
+fn commands(page: &str) -> &str {
+    let section = between(page, "id=\"pictures-0\"", "</section>").next();
+    between(section.unwrap(), "<code>", "</code>")
+        .next()
         .unwrap()
 }
 
 #[test]
 fn one_page_shows_everything_and_is_the_same_twice() {
     let folder = tempfile::tempdir().unwrap();
-    let page = |name: &str| {
-        let line =
-            format!("--arith f64,i16f16 --cost events --size 32x24 --chart-size 16x12 -o {name}");
-        let output = report(folder.path(), &line);
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{told}");
-        fs::read_to_string(folder.path().join(name)).unwrap()
-    };
-    let first = page("a.html");
+    let page = report(folder.path(), "a.html");
     for expected in [
-        "data:image/png;base64,",
         "<strong>i16f16</strong>",
-        "equal to f64",
-        "octray render &apos;a b.scene&apos;",
-        "octray chart 'a b.scene'",
+        "octray chart 'a b.scene' 'deep/a b.scene'",
+        "--cost events --size 16x12 -o events.svg",
         "Table III",
         "Where methods fail",
         "prefers-color-scheme: dark",
     ] {
-        let expected = expected.replace("&apos;", "'");
-        assert!(first.contains(&expected), "{expected}");
+        assert!(page.contains(expected), "{expected}");
     }
-    for foreign in ["<script", "src=\"http", "href=\"http"] {
-        assert!(!first.contains(foreign), "{foreign}");
+    nothing_comes_from_elsewhere(&page);
+    every_part_is_found(&page);
+    if cfg!(unix) {
+        the_commands_give_the_pictures(&page, folder.path());
     }
-    assert!(first == page("b.html"));
+    assert!(page == report(folder.path(), "b.html"));
+}
+
+fn nothing_comes_from_elsewhere(page: &str) {
+    for foreign in ["<script", "<link", "<iframe", "@import", "url("] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+    for source in between(page, "src=\"", "\"") {
+        assert!(source.starts_with("data:image/png;base64,"), "{source}");
+    }
+}
+
+fn every_part_is_found(page: &str) {
+    let ids: Vec<_> = between(page, "<section id=\"", "\"").collect();
+    let expected = [
+        "pictures-0",
+        "pictures-1",
+        "costs",
+        "units",
+        "sizes",
+        "limits",
+    ];
+    assert_eq!(ids, expected);
+    let links: Vec<_> = between(page, "href=\"", "\"").collect();
+    assert_eq!(links, expected.map(|id| format!("#{id}")));
+}
+
+/// What a shell makes of them is shown in the page to the byte.
+fn the_commands_give_the_pictures(page: &str, folder: &Path) {
+    let program = cargo_bin!("octray").parent().unwrap().to_owned();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let paths = std::iter::once(program).chain(std::env::split_paths(&path));
+    let ran = Command::new("sh")
+        .current_dir(folder)
+        .env("PATH", std::env::join_paths(paths).unwrap())
+        .args(["-e", "-c", commands(page)])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{told}\n{}", commands(page));
+    for name in ["i16f16", "f32", "i16f16-difference", "f32-difference"] {
+        let file = fs::read(folder.join(format!("a b-{name}.png"))).unwrap();
+        let shown = BASE64_STANDARD.encode(file);
+        assert!(page.contains(&shown), "{name}");
+    }
 }
 
 #[test]
 fn a_tool_that_is_missing_is_told_in_the_page() {
     let folder = tempfile::tempdir().unwrap();
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    let output = Command::new(cargo_bin!("octray"))
+    let output = octray(folder.path(), &["report"])
         .env("PATH", "")
-        .arg("report")
         .arg(scenes.join("patches.scene"))
         .args(["--arith", "f32", "--cost", "m3", "--size", "16x12", "-o"])
         .arg(folder.path().join("a.html"))

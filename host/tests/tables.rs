@@ -98,6 +98,12 @@ fn what_is_known_of_the_thesis_stands_beside_ours() {
         .stdout_eq(file!["tables/II-VII-thesis.txt"].raw());
 }
 
+/// What stands first between two texts.
+fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
+    let rest = text.split_once(before).unwrap().1;
+    rest.split_once(after).unwrap().0
+}
+
 #[test]
 fn charts_are_drawn_with_their_tables() {
     let folder = tempfile::tempdir().unwrap();
@@ -105,13 +111,24 @@ fn charts_are_drawn_with_their_tables() {
     tables(folder.path(), &format!("VIII IX {quick}"))
         .assert()
         .success();
-    for name in [
-        "figure-24.svg",
-        "figure-24.png",
-        "figure-25.svg",
-        "figure-25.png",
+    for (name, title) in [
+        ("figure-24", "Figure 24: time against H"),
+        ("figure-25", "Figure 25: speed-up against processors"),
     ] {
-        assert!(folder.path().join("charts").join(name).exists(), "{name}");
+        let path = folder.path().join("charts").join(name);
+        let svg = fs::read_to_string(path.with_extension("svg")).unwrap();
+        for text in [title, "static", "dynamic"] {
+            assert!(svg.contains(text), "{name}: {text}");
+        }
+        // A panel for each scene, and in it a curve for each policy at least.
+        for scene in 19..=23 {
+            assert!(svg.contains(&format!("figure-{scene}")), "{name}: {scene}");
+        }
+        assert!(svg.matches("<polyline").count() >= 2 * 5, "{name}");
+        let sides =
+            |name: &str| -> u32 { between(&svg, &format!("{name}=\""), "\"").parse().unwrap() };
+        let picture = octray::picture::read(&path.with_extension("png")).unwrap();
+        assert_eq!(picture.size(), (sides("width"), sides("height")), "{name}");
     }
     tables(folder.path(), &format!("I {quick}"))
         .assert()

@@ -1,11 +1,10 @@
 //! Pictures made by octray, without its command line.
 
 use octray::interrupt::Interrupt;
-use octray::job::{RenderJob, StatsFormat, WorkOptions};
-use octray::picture::{RasDepth, Target};
+use octray::job::{RenderJob, WorkOptions};
 use octray::progress::Progress;
 use octray::render::Traced;
-use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_scenes::model::Scene;
 use std::fs;
 use std::num::NonZeroUsize;
@@ -59,13 +58,7 @@ impl Shot {
     pub fn new(arith: Arith) -> Self {
         Self {
             arith,
-            tree: TreeOptions {
-                kind: Tree::Tight,
-                depth: None,
-                leaf_size: None,
-                arena: None,
-                link: Link::Shape,
-            },
+            tree: TreeOptions::of(Tree::Tight),
             view: ViewOptions {
                 size: None,
                 pixels_per_ray: PixelsPerRay::One,
@@ -95,19 +88,11 @@ impl Shot {
     /// # Panics
     /// If the scene does not fit the arithmetic.
     pub fn take(&self, scene: &Scene) -> Traced {
-        let job = RenderJob {
-            scene: PathBuf::new(),
-            output: Target::new("unwritten.png".into()).expect("a known format"),
-            ras_depth: RasDepth::Eight,
-            arith: self.arith,
-            tree: self.tree,
-            view: self.view,
-            work: WorkOptions {
-                threads: NonZeroUsize::MIN,
-                ..WorkOptions::default()
-            },
-            stats: StatsFormat::Text,
+        let work = WorkOptions {
+            threads: NonZeroUsize::MIN,
+            ..WorkOptions::default()
         };
+        let job = RenderJob::in_memory(self.arith, self.tree, self.view, work);
         let progress = Progress::hidden();
         octray::trace::trace(scene, &job, &progress, &Interrupt::new())
             .unwrap_or_else(|e| panic!("{e}"))

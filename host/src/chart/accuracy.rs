@@ -4,15 +4,14 @@ use super::ChartJob;
 use super::setting::Setting;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{RenderJob, StatsFormat, WorkOptions};
+use crate::job::WorkOptions;
 use crate::metric::Difference;
-use crate::picture::{Format, Picture, RasDepth, Target};
+use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::trace::trace;
+use crate::trace;
 use octray_engine::options::{Arith, PixelsPerRay, Tree};
 use octray_engine::{self as engine, Engine, FirstHit};
 use octray_scenes::model::Scene;
-use std::path::PathBuf;
 
 /// How far off a picture is.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,11 +80,12 @@ impl<'a> Judge<'a> {
             pixels_per_ray: PixelsPerRay::One,
             samples: job.converged_samples,
         };
+        let engine = build(scene, &converged, job.size)?;
         Ok(Self {
             scene,
             size: job.size,
             interrupt,
-            converged: render(scene, &converged, job.size, interrupt)?.0,
+            converged: render(&*engine, interrupt)?,
             exact: Vec::new(),
         })
     }
@@ -96,15 +96,15 @@ impl<'a> Judge<'a> {
     /// # Errors
     /// [`Error::Interrupted`], or if f64 itself fails.
     pub fn accuracy(&mut self, setting: &Setting) -> Result<Result<Accuracy, String>, Error> {
-        let (picture, format) = match render(self.scene, setting, self.size, self.interrupt) {
+        let engine = match build(self.scene, setting, self.size) {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,
         };
-        let engine = build(self.scene, setting, self.size)?;
+        let picture = render(&*engine, self.interrupt)?;
         let converged = Difference::between(&self.converged, &picture)?;
         let exact = self.exact(setting.in_f64())?;
         Ok(Ok(Accuracy {
-            format,
+            format: engine.built().format.into(),
             same: Difference::between(&exact.picture, &picture)?,
             converged,
             sight: sight(&*exact.engine, &*engine, setting.samples),
@@ -117,10 +117,11 @@ impl<'a> Judge<'a> {
         let index = match known {
             Some(index) => index,
             None => {
+                let engine = build(self.scene, &setting, self.size)?;
                 self.exact.push(Exact {
                     setting,
-                    picture: render(self.scene, &setting, self.size, self.interrupt)?.0,
-                    engine: build(self.scene, &setting, self.size)?,
+                    picture: render(&*engine, self.interrupt)?,
+                    engine,
                 });
                 self.exact.len() - 1
             }
@@ -139,28 +140,11 @@ pub(super) fn build(
     Ok(engine::build(scene, setting.arith, &tree, &view)?)
 }
 
-/// The picture, and the number format that was used.
-fn render(
-    scene: &Scene,
-    setting: &Setting,
-    size: (u32, u32),
-    interrupt: &Interrupt,
-) -> Result<(Picture, String), Error> {
-    let job = RenderJob {
-        scene: PathBuf::new(),
-        output: Target {
-            path: PathBuf::new(),
-            format: Format::Png,
-        },
-        ras_depth: RasDepth::Eight,
-        arith: setting.arith,
-        tree: setting.tree_options(),
-        view: setting.view_options(size),
-        work: WorkOptions::default(),
-        stats: StatsFormat::None,
-    };
-    let traced = trace(scene, &job, &Progress::hidden(), interrupt)?;
-    Ok((traced.picture, traced.format))
+/// The picture.
+fn render(engine: &dyn Engine, interrupt: &Interrupt) -> Result<Picture, Error> {
+    let work = WorkOptions::default();
+    let rendered = trace::render(engine, &work, false, &Progress::hidden(), interrupt)?;
+    Ok(rendered.0)
 }
 
 /// What the rays of two pictures with the same settings meet first.

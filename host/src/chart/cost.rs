@@ -121,14 +121,18 @@ pub struct Meter<'a> {
 pub type Costs = Vec<Result<f64, String>>;
 
 impl<'a> Meter<'a> {
-    /// Finds the tools that it takes.
+    /// Finds the tools that it takes to measure costs of these kinds.
     ///
     /// # Errors
     /// [`Error::Failed`] with what is missing, and how to install it.
-    pub fn new(job: &'a ChartJob, interrupt: &'a Interrupt) -> Result<Self, Error> {
+    pub fn new(
+        job: &'a ChartJob,
+        kinds: &[CostKind],
+        interrupt: &'a Interrupt,
+    ) -> Result<Self, Error> {
         let mut boards = Vec::new();
         let mut callgrind = None;
-        for kind in &job.costs {
+        for kind in kinds {
             match kind {
                 CostKind::Board(board) => boards.push(*board),
                 CostKind::HostInstructions => callgrind = Some(Callgrind::find()?),
@@ -235,6 +239,7 @@ impl<'a> Meter<'a> {
             view: View {
                 size: self.job.size,
                 max_depth: setting.max_depth,
+                pixels_per_ray: setting.pixels_per_ray,
             },
             build: BuildOptions {
                 tree,

@@ -4,10 +4,11 @@ use super::accuracy::decibels;
 use super::axis::{Axis, amount, log_ticks};
 use super::label::{self, Label, MARKER, Rect};
 use super::point::{Against, Panel, Point};
-use crate::canvas::{Area, Drawn, Figure, write};
+use crate::canvas::{Area, Drawn, Figure, write, write_in};
 use octray_engine::options::Arith;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 /// Pixels: the plot, and what is around it.
 const WIDTH: i32 = 800;
@@ -217,7 +218,8 @@ impl<'a> Plot<'a> {
         if let Some(point) = equal {
             let y = self.spot(point).1;
             dashes(area, (left, y), (right, y), GRID)?;
-            text(area, "equal pictures", (left + 6, y - 15), 12, FAINT)?;
+            let place = (left + 6, y - 15);
+            write_in(area, "equal pictures", place, 12, HPos::Left, FAINT)?;
         }
         Ok(())
     }
@@ -276,7 +278,8 @@ impl<'a> Plot<'a> {
         }
         marker(area, spot, point.setting.arith, point.on_frontier)?;
         let place = (label.place.left + 2, label.place.top + 2);
-        text(area, &name(point), place, text_height(point), ink)
+        let height = text_height(point);
+        write_in(area, &name(point), place, height, HPos::Left, ink)
     }
 }
 
@@ -292,36 +295,14 @@ fn text_height(point: &Point) -> i32 {
     if point.on_frontier { 14 } else { 12 }
 }
 
-fn text<B: DrawingBackend>(
-    area: &Area<'_, B>,
-    text: &str,
-    place: (i32, i32),
-    height: i32,
-    ink: RGBColor,
-) -> Drawn<B> {
-    let style = ("sans-serif", height)
-        .into_text_style(area)
-        .color(&ink)
-        .pos(Pos::new(HPos::Left, VPos::Top));
-    area.draw(&Text::new(text.to_owned(), place, style))
-}
-
-/// A dashed line, across or down.
+/// A dashed line.
 fn dashes<B: DrawingBackend>(
     area: &Area<'_, B>,
-    (x, y): (i32, i32),
-    (right, bottom): (i32, i32),
+    from: (i32, i32),
+    to: (i32, i32),
     ink: RGBColor,
 ) -> Drawn<B> {
-    let (dx, dy) = if y == bottom { (1, 0) } else { (0, 1) };
-    for start in (0..(right - x).max(bottom - y)).step_by(8) {
-        let from = (x + dx * start, y + dy * start);
-        area.draw(&PathElement::new(
-            [from, (from.0 + 4 * dx, from.1 + 4 * dy)],
-            ink,
-        ))?;
-    }
-    Ok(())
+    area.draw(&DashedPathElement::new([from, to], 4, 4, ink))
 }
 
 /// Families of arithmetics, told apart by their markers' shapes.

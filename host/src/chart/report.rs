@@ -3,8 +3,9 @@
 use super::accuracy::Accuracy;
 use super::point::{Against, Panel, Point};
 use super::setting::Setting;
+use crate::measure::table;
 use crate::metric::Difference;
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::Table;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;
@@ -83,7 +84,7 @@ impl<'a> Row<'a> {
             tree: setting.tree.name(),
             max_depth: setting.max_depth,
             cut_off: setting.cut_off,
-            pixels_per_ray: setting.pixels(),
+            pixels_per_ray: setting.pixels_per_ray.number(),
             samples: setting.samples,
             cost_kind: panel.kind.name(),
             unit: panel.kind.unit(),
@@ -210,8 +211,7 @@ pub fn text(panels: &[Panel]) -> String {
 
 /// A line for each point; a star for those on the frontier.
 fn table(panel: &Panel) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let mut table = table::table(&[
         "frontier",
         "setting",
         panel.kind.unit(),
@@ -222,9 +222,7 @@ fn table(panel: &Panel) -> Table {
         "other object first, %",
         "worst depth error",
     ]);
-    for column in table.column_iter_mut().skip(2) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    table::left(&mut table, 2);
     let mut points: Vec<&Point> = panel.points.iter().collect();
     points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     for point in points {

@@ -1,6 +1,6 @@
 //! What a picture is rendered with: one of each thing that can be chosen, and all combinations.
 
-use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 
 /// One choice of everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,13 +100,7 @@ impl Grid {
 impl Setting {
     /// The octree to build.
     pub fn tree_options(&self) -> TreeOptions {
-        TreeOptions {
-            kind: self.tree,
-            depth: None,
-            leaf_size: None,
-            arena: None,
-            link: Link::Shape,
-        }
+        TreeOptions::of(self.tree)
     }
 
     /// What to trace, in a picture of so many columns and rows.
@@ -117,14 +111,6 @@ impl Setting {
             samples: self.samples,
             max_depth: self.max_depth,
             cut_off: self.cut_off,
-        }
-    }
-
-    /// How many pixels a ray colours.
-    pub fn pixels(&self) -> u32 {
-        match self.pixels_per_ray {
-            PixelsPerRay::One => 1,
-            PixelsPerRay::Four => 4,
         }
     }
 
@@ -177,7 +163,7 @@ impl Setting {
             format!("--tree={}", self.tree.name()),
             format!("--max-depth={}", self.max_depth),
             format!("--cut-off={}", fraction(self.cut_off)),
-            format!("--pixels-per-ray={}", self.pixels()),
+            format!("--pixels-per-ray={}", self.pixels_per_ray.number()),
             format!("--samples={}", self.samples),
         ]
     }
@@ -189,6 +175,7 @@ impl Setting {
             format!("--size={}x{}", size.0, size.1),
             format!("--tree={tree}"),
             format!("--max-depth={}", self.max_depth),
+            format!("--pixels-per-ray={}", self.pixels_per_ray.number()),
         ]
     }
 }
@@ -218,7 +205,9 @@ pub fn common(settings: &[Setting]) -> String {
     if same(|setting| setting.cut_off) {
         words.push(format!("cut-off {}", fraction(first.cut_off)));
     }
-    if same(|setting| setting.samples.into()) && same(|setting| setting.pixels().into()) {
+    if same(|setting| setting.samples.into())
+        && same(|setting| setting.pixels_per_ray.number().into())
+    {
         words.push(match (first.pixels_per_ray, first.samples) {
             (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
             (PixelsPerRay::One, 1) => "1 ray per pixel".into(),

@@ -22,7 +22,8 @@ const MOST: usize = 256;
 Every combination of the lists is a point. An arithmetic's name tells Newton steps (approx0 to approx2) or integer and \
 fraction bits. Costs are host-time (seconds; differs from run to run), host-instructions (counted by Valgrind), events \
 (instructions estimated from counted rays, steps and tests: for settings, being the same for all arithmetics), and boards \
-such as m3 (instructions counted in QEMU; see octray measure), which have no trees but packed and none.
+such as m3 (instructions counted in QEMU; see octray measure), which have no trees but \
+packed and none, the cut-off 1/512, and no several rays per pixel.
 
 The knee is the point of the frontier that lies farthest above the straight line between its ends, in decibels over \
 the logarithm of the cost.")]
@@ -141,10 +142,9 @@ impl ChartArgs {
                     "{board} has no {tree} tree: expected packed or none"
                 ));
             }
-            let fixed = (&*grid.cut_offs, &*grid.pixels_per_ray, &*grid.samples);
-            if fixed != (&[1.0 / 512.0], &[PixelsPerRay::One], &[1]) {
+            if (&*grid.cut_offs, &*grid.samples) != (&[1.0 / 512.0], &[1]) {
                 return usage(format!(
-                    "on {board} the cut-off is 1/512, and each pixel has one ray"
+                    "on {board} the cut-off is 1/512, and no pixel has several rays"
                 ));
             }
         }
@@ -231,6 +231,8 @@ mod tests {
     fn with_a_board_the_tree_is_one_that_boards_have() {
         assert_eq!(job("a --cost m3,host-time").grid.trees, [Tree::Packed]);
         assert_eq!(job("a --cost m3 --tree none").grid.trees, [Tree::None]);
+        let both = job("a --cost m3 --pixels-per-ray 1,4").grid;
+        assert_eq!(both.settings().len(), 24);
     }
 
     #[test]
@@ -252,7 +254,8 @@ mod tests {
             ("a --samples 2 --pixels-per-ray 4", "contradict"),
             ("--max-depth 0,1,2,3,4", "300 combinations"),
             ("a --cost m3 --tree tight", "m3 has no tight tree"),
-            ("a --cost m3 --samples 2", "on m3 the cut-off is 1/512"),
+            ("a --cost m3 --samples 2", "no pixel has several rays"),
+            ("a --cost m3 --cut-off 0", "on m3 the cut-off is 1/512"),
             ("a -o b.bmp", ".bmp"),
             ("a -o b.svg --csv b.svg", "one file"),
             ("a --json a", "which is read"),

@@ -9,7 +9,7 @@ use crate::measure::ratio::CORES;
 use crate::measure::reference::View;
 use crate::picture::Target;
 use clap::{Args, value_parser};
-use octray_engine::options::{Arith, DEEPEST};
+use octray_engine::options::{Arith, DEEPEST, PixelsPerRay};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ pub struct MeasureArgs {
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Measure single operations instead of scenes: arithmetic, hit tests, voxel step, shaded light
-    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "tree", "functions", "chart"])]
+    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "pixels_per_ray", "tree", "functions", "chart"])]
     kernels: bool,
     /// Boards or targets, separated by commas [default: all]
     #[arg(long, value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
@@ -46,6 +46,9 @@ pub struct MeasureArgs {
     /// How often a ray may bounce
     #[arg(long, value_name = "D", default_value_t = 8, value_parser = value_parser!(u32).range(..=i64::from(DEEPEST)))]
     max_depth: u32,
+    /// Pixels that one ray colours: 1, or 4 in squares of two by two
+    #[arg(long, value_name = "N", value_enum, default_value_t)]
+    pixels_per_ray: PixelsPerRay,
     /// The firmware's tree
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     tree: TreeKind,
@@ -101,6 +104,7 @@ impl MeasureArgs {
             view: View {
                 size: self.size,
                 max_depth: self.max_depth,
+                pixels_per_ray: self.pixels_per_ray,
             },
             build: BuildOptions {
                 tree: self.tree,
@@ -143,6 +147,7 @@ mod tests {
         assert_eq!(job.boards.len(), BOARDS.len());
         assert_eq!(job.ariths, [Arith::F32, Arith::Auto]);
         assert_eq!((job.view.size, job.view.max_depth), ((64, 48), 8));
+        assert_eq!(job.view.pixels_per_ray, PixelsPerRay::One);
         assert_eq!(job.build.tree, TreeKind::Packed);
         assert_eq!(job.build.optimize, Goal::Speed);
     }
@@ -166,6 +171,8 @@ mod tests {
             "--patience 0",
             "--kernels a.scene",
             "--kernels --size 8x8",
+            "--kernels --pixels-per-ray 4",
+            "--pixels-per-ray 2",
             "--kernels --chart a.svg",
         ] {
             assert!(parse(line).is_err(), "{line}");

@@ -41,10 +41,10 @@ pub struct TablesArgs {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Processors in table VIII
-    #[arg(long, value_name = "N", default_value = "7", value_parser = value::positive::<NonZeroU32>)]
+    #[arg(long, value_name = "N", default_value = "7", value_parser = value::count)]
     processors: NonZeroU32,
     /// Rows of a packet in table IX
-    #[arg(long, value_name = "H", default_value = "4", value_parser = value::positive::<NonZeroU32>)]
+    #[arg(long, value_name = "H", default_value = "4", value_parser = value::count)]
     packet_rows: NonZeroU32,
     /// Instructions for which a packet that is handed out keeps others from theirs, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]

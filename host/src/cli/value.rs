@@ -28,6 +28,17 @@ pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
+/// The largest count of processors, and side of a packet: no picture has more rows.
+const MOST: u32 = 65_536;
+
+/// A whole number from 1 to [`MOST`].
+pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
+    positive(text)
+        .ok()
+        .filter(|number: &NonZeroU32| number.get() <= MOST)
+        .ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
+}
+
 /// Whole numbers, none of them 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Whole(pub(super) Vec<NonZeroU32>);
@@ -50,9 +61,11 @@ pub(super) fn doubling(text: &str) -> Result<Whole, String> {
             .map(positive)
             .collect::<Result<Vec<_>, _>>()?,
     };
-    match numbers.iter().all(|n| n.get() <= 65_536) && !numbers.is_empty() {
+    match numbers.iter().all(|n| n.get() <= MOST) && !numbers.is_empty() {
         true => Ok(Whole(numbers)),
-        false => Err("expected numbers from 1 to 65536 such as 1,2,7 or 1..1024".into()),
+        false => Err(format!(
+            "expected numbers from 1 to {MOST} such as 1,2,7 or 1..1024"
+        )),
     }
 }
 
@@ -122,6 +135,15 @@ mod tests {
         assert_eq!(numbers("3..3"), Ok(vec![3]));
         for wrong in ["", "0", "1,", "0..4", "4..1", "1..", "99999", "a"] {
             assert!(doubling(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn counts() {
+        assert_eq!(count("1").map(NonZeroU32::get), Ok(1));
+        assert_eq!(count("65536").map(NonZeroU32::get), Ok(65_536));
+        for wrong in ["", "0", "65537", "4294967296", "-1", "1.5"] {
+            assert!(count(wrong).is_err(), "{wrong}");
         }
     }
 

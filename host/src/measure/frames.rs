@@ -11,6 +11,7 @@ use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
+use crate::tables::subject::FIGURES;
 use octray_engine::options::Arith;
 use octray_scenes::model::Scene;
 use std::fs;
@@ -45,6 +46,26 @@ impl Named {
             scene,
         })
     }
+}
+
+/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
+///
+/// # Errors
+/// If one cannot be read, or is wrong.
+pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
+    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
+    if !named.is_empty() {
+        let named = named.iter();
+        return named.map(|path| read(path.clone(), path)).collect();
+    }
+    let root = Workspace::root()?;
+    (FIGURES.iter())
+        .map(|figure| {
+            let told = PathBuf::from(format!("scenes/{}.scene", figure.name));
+            let path = root.join(&told);
+            read(told, &path)
+        })
+        .collect()
 }
 
 /// What measures.
@@ -141,11 +162,13 @@ impl Bench<'_> {
     ) -> Result<Result<PathBuf, String>, Error> {
         let size = format!("{}x{}", view.size.0, view.size.1);
         let depth = view.max_depth.to_string();
+        let pixels = view.pixels_per_ray.number().to_string();
         let variables = [
             ("OCTRAY_SCENE", scene),
             ("OCTRAY_ARITH", arith.name()),
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
+            ("OCTRAY_PIXELS_PER_RAY", &pixels),
             ("OCTRAY_TREE", options.tree.name()),
         ];
         let firmware = ("octray-firmware", None);
@@ -169,6 +192,7 @@ fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> 
         width: job.view.size.0,
         height: job.view.size.1,
         max_depth: job.view.max_depth,
+        pixels_per_ray: job.view.pixels_per_ray.number(),
         board,
         arith,
         tree: job.build.tree,

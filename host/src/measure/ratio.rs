@@ -132,7 +132,8 @@ fn float_and_fixed(rows: &[Row]) -> String {
     )
 }
 
-fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
+/// Of positive values; 1 of none.
+pub(crate) fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0), |(sum, count), x| (sum + x.ln(), count + 1));
     (sum / f64::from(count.max(1))).exp()
 }

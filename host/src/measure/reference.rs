@@ -3,17 +3,15 @@
 
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{RenderJob, StatsFormat, WorkOptions};
+use crate::job::{RenderJob, WorkOptions};
 use crate::metric::Difference;
-use crate::picture::{Format, RasDepth, Target};
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
-use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_scenes::bake::CUT_OFF;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 /// What the firmware renders.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +20,8 @@ pub struct View {
     pub size: (u32, u32),
     /// The most bounces.
     pub max_depth: u32,
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: PixelsPerRay,
 }
 
 /// The host's picture.
@@ -61,33 +61,17 @@ pub fn render(
     view: View,
     interrupt: &Interrupt,
 ) -> Result<Traced, Error> {
-    let job = RenderJob {
-        scene: PathBuf::new(),
-        output: Target {
-            path: PathBuf::new(),
-            format: Format::Png,
-        },
-        ras_depth: RasDepth::Eight,
-        arith,
-        tree: TreeOptions {
-            kind: Tree::Tight,
-            depth: None,
-            leaf_size: None,
-            arena: None,
-            link: Link::Shape,
-        },
-        view: ViewOptions {
-            size: Some(view.size),
-            pixels_per_ray: PixelsPerRay::One,
-            samples: 1,
-            max_depth: view.max_depth,
-            cut_off: CUT_OFF,
-        },
-        work: WorkOptions {
-            threads: NonZeroUsize::MIN,
-            ..WorkOptions::default()
-        },
-        stats: StatsFormat::None,
+    let view = ViewOptions {
+        size: Some(view.size),
+        pixels_per_ray: view.pixels_per_ray,
+        samples: 1,
+        max_depth: view.max_depth,
+        cut_off: CUT_OFF,
     };
+    let work = WorkOptions {
+        threads: NonZeroUsize::MIN,
+        ..WorkOptions::default()
+    };
+    let job = RenderJob::in_memory(arith, TreeOptions::of(Tree::Tight), view, work);
     trace(scene, &job, &Progress::hidden(), interrupt)
 }

@@ -111,6 +111,7 @@ pub(super) mod tests {
             width: 64,
             height: 48,
             max_depth: 8,
+            pixels_per_ray: 1,
             board: &BOARDS[1],
             arith: Arith::Auto,
             tree: TreeKind::Packed,

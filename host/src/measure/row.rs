@@ -22,6 +22,8 @@ pub struct Row {
     pub height: u32,
     /// The most bounces.
     pub max_depth: u32,
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: u32,
     /// The board.
     pub board: &'static Board,
     /// The arithmetic that was asked for.
@@ -41,12 +43,13 @@ pub struct Row {
 }
 
 /// The columns of comma-separated values: those of every row, in order.
-pub const COLUMNS: [&str; 37] = [
+pub const COLUMNS: [&str; 38] = [
     "scene",
     "objects",
     "width",
     "height",
     "max_depth",
+    "pixels_per_ray",
     "board",
     "target",
     "core",

@@ -45,12 +45,8 @@ fn frames(rows: &[Row]) -> String {
     ]);
     left(&mut table, 3);
     for row in rows {
-        let arith = match &row.cost {
-            Some(cost) if cost.format != row.arith.name() => {
-                format!("{}: {}", row.arith.name(), cost.format)
-            }
-            _ => row.arith.name().into(),
-        };
+        let format = row.cost.as_ref().map_or("", |cost| &cost.format);
+        let arith = row.arith.with_format(format);
         let mut cells = vec![row.scene.clone(), row.board.name.into(), arith];
         match &row.cost {
             Some(cost) => cells.extend(numbers(cost)),
@@ -99,7 +95,7 @@ fn millions(n: u64) -> String {
 }
 
 /// A table with these columns, all of numbers.
-pub(super) fn table(columns: &[&str]) -> Table {
+pub(crate) fn table(columns: &[&str]) -> Table {
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_MARKDOWN)
@@ -111,7 +107,7 @@ pub(super) fn table(columns: &[&str]) -> Table {
 }
 
 /// The first columns hold words.
-pub(super) fn left(table: &mut Table, columns: usize) {
+pub(crate) fn left(table: &mut Table, columns: usize) {
     for column in table.column_iter_mut().take(columns) {
         column.set_cell_alignment(CellAlignment::Left);
     }

@@ -100,10 +100,10 @@ pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
 }
 
 /// The record with what was measured anew: of boards that were not measured the lines stay. By board, its lines in
-/// the order in which they came.
+/// the order in which they came. The columns are those of what was measured: what older lines do not tell is empty.
 ///
 /// # Errors
-/// If either is no record, or their columns differ; if `out` cannot be written.
+/// If either is no record; if `out` cannot be written.
 pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(), Error> {
     let broken = |why: String| Error::Failed(format!("the record of measurements: {why}"));
     let wrong = |why: csv::Error| broken(why.to_string());
@@ -112,9 +112,10 @@ pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(),
     let columns = measured.headers().map_err(wrong)?.clone();
     let board = (columns.iter().position(|name| name == "board"))
         .ok_or_else(|| broken("no column tells the board".into()))?;
-    if *old.headers().map_err(wrong)? != columns {
-        return Err(broken("its columns are not those of today".into()));
-    }
+    let known = old.headers().map_err(wrong)?.clone();
+    let places: Vec<_> = (columns.iter())
+        .map(|name| known.iter().position(|known| known == name))
+        .collect();
     let mut lines: Vec<_> = measured
         .records()
         .collect::<Result<_, _>>()
@@ -122,6 +123,8 @@ pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(),
     let boards: BTreeSet<String> = lines.iter().map(|line| line[board].to_owned()).collect();
     for line in old.records() {
         let line = line.map_err(wrong)?;
+        let cell = |place: &Option<usize>| place.and_then(|at| line.get(at)).unwrap_or_default();
+        let line: csv::StringRecord = places.iter().map(cell).collect();
         if !boards.contains(&line[board]) {
             lines.push(line);
         }
@@ -237,7 +240,11 @@ mod tests {
             renewed(old, measured).unwrap(),
             "scene,board,flash\na,m0,1\nb,m0,2\nb,m3,6\na,m3,7\na,m4,5\n"
         );
-        assert!(renewed("scene,board\na,m0\n", measured).is_err());
-        assert!(renewed(old, "").is_err());
+        // A column that is new, and one that is gone.
+        assert_eq!(
+            renewed("board,tree,scene\nm0,none,a\n", measured).unwrap(),
+            "scene,board,flash\na,m0,\nb,m3,6\na,m3,7\n"
+        );
+        assert!(renewed(old, "scene\na\n").is_err());
     }
 }

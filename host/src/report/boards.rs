@@ -3,41 +3,27 @@
 use super::page::{self, Section, table};
 use crate::error::Error;
 use crate::facts::thousands;
-use crate::tables::emulated::{self, RECORD, RECORD_CHART, RECORD_NAME};
+use crate::tables::emulated;
+use crate::tables::record::{self, Row};
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
-use serde::Deserialize;
-
-/// The columns of a record that are shown.
-#[derive(Debug, Deserialize)]
-struct Row {
-    scene: String,
-    board: String,
-    arith: String,
-    format: String,
-    per_pixel: Option<f64>,
-    flash: Option<u64>,
-    ram: Option<u64>,
-    stack: Option<u64>,
-    psnr: Option<f64>,
-    commit: String,
-}
 
 /// Table III today, and what programs need.
 ///
 /// # Errors
 /// [`Error::Failed`] if the record is none.
 pub(super) fn sections() -> Result<Vec<Section>, Error> {
-    let rows = read(RECORD).map_err(|cause| Error::Failed(format!("{RECORD_NAME}: {cause}")))?;
+    let rows = record::read(record::NEWEST)
+        .map_err(|cause| Error::Failed(format!("{}: {cause}", record::NAME)))?;
     let commit = rows.first().map_or("", |row| &row.commit);
     let three = emulated::three(None)?.beside(&Thesis::read(None)?);
-    let measured = format!("{RECORD_NAME}, measured at commit {commit}");
+    let measured = format!("{}, measured at commit {commit}", record::NAME);
     let units = Section {
         id: "units".into(),
         title: "Table III, today: without and with a floating-point unit".into(),
         body: html! {
-            (page::chart(RECORD_CHART, "instructions per pixel without and with a floating-point unit"))
+            (page::chart(record::CHART, "instructions per pixel without and with a floating-point unit"))
             pre { (text::of(&three)) }
         },
         commands: vec![
@@ -68,27 +54,24 @@ const HEAD: [&str; 8] = [
     "PSNR",
 ];
 
-fn read(text: &str) -> Result<Vec<Row>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes())
-        .deserialize()
-        .collect()
-}
-
 fn cells(row: &Row) -> Vec<String> {
     let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
-    let arith = match row.format == row.arith {
-        true => row.arith.clone(),
-        false => format!("{}: {}", row.arith, row.format),
+    let (cost, accuracy) = match row.per_pixel {
+        None => (row.outcome.clone(), "–".into()),
+        Some(cost) => (
+            thousands(cost.round() as u64),
+            row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+        ),
     };
     vec![
         row.scene.clone(),
         row.board.clone(),
-        arith,
-        whole(row.per_pixel.map(|n| n.round() as u64)),
+        row.arith.with_format(&row.format),
+        cost,
         whole(row.flash),
         whole(row.ram),
         whole(row.stack),
-        row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+        accuracy,
     ]
 }
 
@@ -103,5 +86,16 @@ mod tests {
         for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "not at hand"] {
             assert!(text.contains(expected), "{expected}");
         }
+    }
+
+    #[test]
+    fn a_failure_is_not_told_to_be_equal() {
+        let text = "scene,board,arith,format,outcome,per_pixel,flash,ram,stack,psnr,commit,toolchain,emulator\n\
+                    a,m0,f32,,stack overflow,,,,,,c,rustc,QEMU\na,m3,f32,f32,ok,10.4,1000,20,30,,c,rustc,QEMU\n";
+        let rows: Vec<_> = record::read(text).unwrap().iter().map(cells).collect();
+        let failed = ["a", "m0", "f32", "stack overflow", "–", "–", "–", "–"];
+        assert_eq!(rows[0], failed);
+        let equal = ["a", "m3", "f32", "10", "1,000", "20", "30", "equal"];
+        assert_eq!(rows[1], equal);
     }
 }

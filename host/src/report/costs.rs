@@ -2,25 +2,32 @@
 
 use super::page::{self, Section, table};
 use crate::canvas;
+use crate::chart::cost::{CostKind, Meter};
 use crate::chart::figure::Chart;
 use crate::chart::point::Panel;
 use crate::chart::{self, ChartJob};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::measure::frames::Named;
 use maud::{Markup, html};
+use std::path::PathBuf;
 
 /// The section. Where costs cannot be counted it says why.
 ///
 /// # Errors
 /// When a chart cannot be drawn, or the work is interrupted.
-pub(super) fn section(job: &ChartJob, interrupt: &Interrupt) -> Result<Section, Error> {
+pub(super) fn section(
+    scenes: Vec<(PathBuf, Named)>,
+    job: &ChartJob,
+    interrupt: &Interrupt,
+) -> Result<Section, Error> {
+    let judged = chart::judge(scenes, job, interrupt)?;
     let mut parts = Vec::new();
-    for &cost in &job.costs {
-        let only = ChartJob {
-            costs: vec![cost],
-            ..job.clone()
-        };
-        match chart::measure(&only, interrupt) {
+    for cost in &job.costs {
+        let only = std::slice::from_ref(cost);
+        let measured = Meter::new(job, only, interrupt)
+            .and_then(|meter| chart::panels(&judged, job, only, &meter));
+        match measured {
             Err(Error::Interrupted) => return Err(Error::Interrupted),
             Err(failed) => parts.push(html! {
                 h3 { (cost.words()) }
@@ -43,22 +50,22 @@ pub(super) fn section(job: &ChartJob, interrupt: &Interrupt) -> Result<Section, 
             }
             @for part in &parts { (part) }
         },
-        commands: vec![command(job)],
+        commands: job.costs.iter().map(|cost| command(job, *cost)).collect(),
     })
 }
 
-/// What draws the charts.
-fn command(job: &ChartJob) -> String {
+/// What draws the charts of one kind of cost.
+fn command(job: &ChartJob, cost: CostKind) -> String {
     let list = |names: Vec<&str>| names.join(",");
     let scenes: String = (job.scenes.iter())
         .map(|path| format!(" {}", page::quoted(path)))
         .collect();
     let (width, height) = job.size;
+    let cost = cost.name();
     format!(
-        "octray chart{scenes} --arith {} --tree {} --cost {} --size {width}x{height} -o chart.svg",
+        "octray chart{scenes} --arith {} --tree {} --cost {cost} --size {width}x{height} -o {cost}.svg",
         list(job.grid.ariths.iter().map(|arith| arith.name()).collect()),
         list(job.grid.trees.iter().map(|tree| tree.name()).collect()),
-        list(job.costs.iter().map(|cost| cost.name()).collect()),
     )
 }
 
@@ -78,5 +85,8 @@ fn of_panel(panel: &Panel) -> Result<Markup, Error> {
         h3 { (says) }
         (page::chart(&svg, &says))
         (table(&head, &rows))
+        @if let Some(counting) = panel.counting() {
+            p { "Instructions are counted by " code { (counting) } " before such a command." }
+        }
     })
 }

@@ -11,17 +11,18 @@ use crate::metric::Difference;
 use crate::progress::Progress;
 use crate::render::Traced;
 use maud::{Markup, html};
-use octray_engine::options::Arith;
+use octray_engine::options::{Arith, PixelsPerRay};
 use std::path::Path;
 
 /// The most bounces, as `octray render` has it.
 const MAX_DEPTH: u32 = 8;
 
-/// The section of a scene.
+/// The section of a scene, the `index`th.
 ///
 /// # Errors
 /// When interrupted, or if the scene cannot be rendered even in 64-bit floats.
 pub(super) fn section(
+    index: usize,
     scene: &Named,
     path: &Path,
     job: &ReportJob,
@@ -31,31 +32,28 @@ pub(super) fn section(
     let view = View {
         size: job.size,
         max_depth: MAX_DEPTH,
+        pixels_per_ray: PixelsPerRay::One,
     };
     let render = |arith| reference::render(&scene.scene, arith, view, interrupt);
     let exact = render(Arith::F64)?;
-    let mut figures = Vec::new();
+    let (mut figures, mut shown) = (Vec::new(), Vec::new());
     for &arith in &job.ariths {
         figures.push(match render(arith) {
             Err(Error::Interrupted) => return Err(Error::Interrupted),
             Err(refused) => html! {
                 figure { figcaption { strong { (arith.name()) } ": " (refused) } }
             },
-            Ok(traced) => figure(arith, &traced, &exact)?,
+            Ok(traced) => {
+                shown.push(arith.name());
+                figure(arith, &traced, &exact)?
+            }
         });
         progress.step();
     }
     let (width, height) = job.size;
-    let file = quoted(path);
     let name = &scene.name;
-    let render = |arith: &str| {
-        format!(
-            "octray render {file} --arith {arith} --size {width}x{height} -o {name}-{arith}.png"
-        )
-    };
-    let other = "i16f16";
     Ok(Section {
-        id: format!("pictures-{name}"),
+        id: format!("pictures-{index}"),
         title: format!("{name} in every arithmetic"),
         body: html! {
             p {
@@ -64,24 +62,41 @@ pub(super) fn section(
             }
             div.pictures { @for figure in &figures { (figure) } }
         },
-        commands: vec![
-            render("f64"),
-            render(other),
-            format!(
-                "octray diff {name}-f64.png {name}-{other}.png -o {name}-{other}-difference.png"
-            ),
-        ],
+        commands: commands(name, path, job.size, &shown),
     })
+}
+
+/// What renders a scene in these arithmetics, and draws where they differ: loops of a shell.
+fn commands(name: &str, path: &Path, (width, height): (u32, u32), shown: &[&str]) -> Vec<String> {
+    let (file, name) = (quoted(path), quoted(Path::new(name)));
+    let others: Vec<&str> = (shown.iter().copied())
+        .filter(|arith| *arith != Arith::F64.name())
+        .collect();
+    let for_all = |ariths: &[&str]| format!("for arith in {}; do", ariths.join(" "));
+    let exact = format!("{name}-f64.png");
+    let mut commands = vec![
+        for_all(&[&[Arith::F64.name()], &*others].concat()),
+        format!(
+            "  octray render {file} --arith $arith --size {width}x{height} -o {name}-$arith.png"
+        ),
+        "done".into(),
+    ];
+    if !others.is_empty() {
+        let differences = format!("-o {name}-$arith-difference.png");
+        commands.extend([
+            for_all(&others),
+            format!("  octray diff {exact} {name}-$arith.png {differences}"),
+            "done".into(),
+        ]);
+    }
+    commands
 }
 
 /// The picture, its map, and how far off it is.
 fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error> {
     let difference = Difference::between(&exact.picture, &traced.picture)?;
     let share = 100.0 * difference.beyond_1 as f64 / difference.pixels.max(1) as f64;
-    let arith = match traced.format == arith.name() {
-        true => traced.format.clone(),
-        false => format!("{}: {}", arith.name(), traced.format),
-    };
+    let arith = arith.with_format(&traced.format);
     let says = match difference.is_zero() {
         true => "equal to f64".into(),
         false => format!(

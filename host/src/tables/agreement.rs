@@ -62,15 +62,12 @@ fn nearest(lab: &Lab<'_>, datum: &Datum) -> Result<Option<String>, Error> {
     else {
         return Ok(None);
     };
+    let all = subject.scene()?.lights.len();
     let with = |lights| {
-        let trial = Trial {
-            lights: Some(lights),
-            ..Trial::of(subject)
-        };
+        let trial = Trial::of(subject).with_lights(lights, all);
         Ok::<_, Error>((lights, count(&lab.tally(trial)?.rays)))
     };
     let off = |ours: u64| (ours as f64 / datum.value - 1.0).abs();
-    let all = subject.scene()?.lights.len();
     if (1..=all).contains(&stated) && off(with(stated)?.1) <= within {
         return Ok(None);
     }

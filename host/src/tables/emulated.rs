@@ -1,31 +1,13 @@
 //! Table III: what pictures cost without and with a floating-point unit, from a record of `octray measure`.
 
 use super::number::Number;
+use super::record::{self, Row};
 use super::table::{Base, Draft, Quantity};
 use crate::error::Error;
-use crate::measure::ratio::CORES;
-use serde::Deserialize;
+use crate::measure::ratio::{CORES, geometric_mean};
+use octray_engine::options::Arith;
 use std::fs;
 use std::path::Path;
-
-/// The newest record that comes with octray.
-pub const RECORD: &str = include_str!(env!("OCTRAY_RECORD"));
-/// Its path in the sources.
-pub const RECORD_NAME: &str = env!("OCTRAY_RECORD_NAME");
-/// Its chart: SVG.
-pub const RECORD_CHART: &str = include_str!(env!("OCTRAY_RECORD_CHART"));
-
-/// The columns of a record that are needed.
-#[derive(Debug, Deserialize)]
-struct Row {
-    scene: String,
-    board: String,
-    arith: String,
-    per_pixel: Option<f64>,
-    commit: String,
-    toolchain: String,
-    emulator: String,
-}
 
 /// The table of a record, or without one of the newest that comes with octray.
 ///
@@ -33,7 +15,7 @@ struct Row {
 /// [`Error::Read`] if the record cannot be read, [`Error::Failed`] if it is none or lacks the boards.
 pub fn three(path: Option<&Path>) -> Result<Draft, Error> {
     match path {
-        None => of(RECORD, RECORD_NAME),
+        None => of(record::NEWEST, record::NAME),
         Some(path) => {
             let text = fs::read_to_string(path).map_err(|source| Error::read(path, source))?;
             of(&text, &path.display().to_string())
@@ -47,11 +29,9 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
             "{name} is no record of `octray measure --csv`: {why}"
         ))
     };
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let rows: Result<Vec<Row>, _> = reader.deserialize().collect();
-    let rows = rows.map_err(|error| failed(&error))?;
+    let rows = record::read(text).map_err(|error| failed(&error))?;
     let cost = |scene: &str, board: &str| {
-        let here = |row: &&Row| row.scene == scene && row.board == board && row.arith == "f32";
+        let here = |row: &&Row| row.scene == scene && row.board == board && row.arith == Arith::F32;
         rows.iter().find(here)?.per_pixel
     };
     let mut scenes: Vec<&str> = Vec::new();
@@ -61,7 +41,7 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
         }
     }
     let mut lines = Vec::new();
-    let mut logarithms = [0.0; CORES.len()];
+    let mut ratios = Vec::new();
     for scene in scenes {
         let of = |board| cost(scene, board).unwrap_or(f64::NAN);
         let with = CORES.map(|(_, with)| of(with));
@@ -69,9 +49,7 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
         if with.iter().chain(&without).any(|cost| cost.is_nan()) {
             continue;
         }
-        for (i, sum) in logarithms.iter_mut().enumerate() {
-            *sum += (without[i] / with[i]).ln();
-        }
+        ratios.push([0, 1].map(|core| without[core] / with[core]));
         lines.push((scene.to_owned(), "with".to_owned(), with.to_vec()));
         lines.push((scene.to_owned(), "without".to_owned(), without.to_vec()));
     }
@@ -80,7 +58,7 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
         let needed = format!("no scene in f32 on {}", boards.join(", "));
         return Err(failed(&needed));
     };
-    let means = logarithms.map(|sum| (sum / (lines.len() / 2) as f64).exp());
+    let means = [0, 1].map(|core| geometric_mean(ratios.iter().map(|ratios| ratios[core])));
     let notes = vec![
         format!(
             "Without the unit f32 takes {:.2} (Cortex-M4) and {:.2} (RV32) times as many instructions, geometric \
@@ -89,7 +67,7 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
         ),
         "Ours are instructions, of which one does an addition or a product in the unit, on cores whose floats are \
          otherwise emulated in integers; the thesis's are minutes of a Sun 3/110, whose coprocessor takes many \
-         cycles for each. So its ratios are smaller."
+         cycles for each. So the ratios need not be alike."
             .into(),
         format!(
             "From {name}: commit {}, {}, {}.",
@@ -121,6 +99,16 @@ mod tests {
         let table = three(None).unwrap();
         assert_eq!(table.lines.len(), 10);
         assert_eq!(table.lines[9].0, "figure-23");
+    }
+
+    #[test]
+    fn the_introduction_tells_the_ratios_of_the_newest_record() {
+        let note = three(None).unwrap().notes.swap_remove(0);
+        let number = |word: &str| word.parse::<f64>().is_ok().then(|| word.to_owned());
+        let ratios: Vec<_> = note.split(' ').filter_map(number).collect();
+        let told = format!("| {} (geometric means)", ratios.join(" and "));
+        let introduction = include_str!("../../../README.md");
+        assert!(introduction.contains(&told), "{told}");
     }
 
     #[test]

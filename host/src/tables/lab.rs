@@ -5,18 +5,16 @@ use crate::cost::{self, CostMap};
 use crate::deal::Policy;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::job::{RenderJob, StatsFormat, WorkOptions};
+use crate::job::{RenderJob, WorkOptions};
 use crate::packets::Shape;
-use crate::picture::{Format, RasDepth, Target};
 use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
 use octray_core::packet::Region;
 use octray_engine as engine;
-use octray_engine::options::{Arith, Link, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use std::cell::RefCell;
 use std::num::{NonZeroU32, NonZeroUsize};
-use std::path::PathBuf;
 
 /// Traces, and remembers what came out.
 #[derive(Debug)]
@@ -78,23 +76,18 @@ impl<'a> Lab<'a> {
         if self.time {
             work.threads = NonZeroUsize::MIN;
         }
-        let job = RenderJob {
-            scene: PathBuf::new(),
-            output: Target {
-                path: PathBuf::new(),
-                format: Format::Png,
-            },
-            ras_depth: RasDepth::Eight,
-            arith: Arith::F32,
-            tree: tree(&trial),
-            view: self.view(&trial),
-            work,
-            stats: StatsFormat::None,
-        };
+        let tree = TreeOptions::of(trial.tree);
+        let job = RenderJob::in_memory(Arith::F32, tree, self.view(&trial), work);
         let traced = trace(&trial.scene()?, &job, &Progress::hidden(), self.interrupt)?;
         let tally = Tally::of(&traced);
         self.seen.borrow_mut().push((trial, tally));
         Ok(tally)
+    }
+
+    /// How many trials have been traced.
+    #[cfg(test)]
+    pub(super) fn traced(&self) -> usize {
+        self.seen.borrow().len()
     }
 
     /// What each pixel of a scene costs, and the rows that cost anything.
@@ -106,7 +99,7 @@ impl<'a> Lab<'a> {
         let engine = engine::build(
             &trial.scene()?,
             Arith::F32,
-            &tree(&trial),
+            &TreeOptions::of(trial.tree),
             &self.view(&trial),
         )?;
         let map = CostMap::probe(&*engine, NonZeroU32::MIN, self.interrupt)?;
@@ -126,16 +119,6 @@ impl<'a> Lab<'a> {
             max_depth: 8,
             cut_off: 1.0 / 512.0,
         }
-    }
-}
-
-fn tree(trial: &Trial) -> TreeOptions {
-    TreeOptions {
-        kind: trial.tree,
-        depth: None,
-        leaf_size: None,
-        arena: None,
-        link: Link::Shape,
     }
 }
 
@@ -181,6 +164,6 @@ mod tests {
             ..Trial::of(FIGURES[2])
         };
         assert_eq!(lab.tally(larger).unwrap().pixels, 60 * 40);
-        assert_eq!(lab.seen.borrow().len(), 2);
+        assert_eq!(lab.traced(), 2);
     }
 }

@@ -86,6 +86,22 @@ impl Trial {
         }
     }
 
+    /// With the first lights only, so many of `all`.
+    pub fn with_lights(self, lights: usize, all: usize) -> Self {
+        Self {
+            lights: (lights < all).then_some(lights),
+            ..self
+        }
+    }
+
+    /// With so many surfaces of `all`.
+    pub fn with_surfaces(self, surfaces: usize, all: usize) -> Self {
+        Self {
+            surfaces: (surfaces < all).then_some(surfaces),
+            ..self
+        }
+    }
+
     /// The scene in its variant.
     ///
     /// # Errors
@@ -167,11 +183,11 @@ mod tests {
         };
         let every_fourth = [0, 4, 8, 12].map(|i| all.objects[i]);
         assert_eq!(few.scene().unwrap().objects, every_fourth);
-        let same = Trial {
-            surfaces: Some(99),
-            ..trial
-        };
-        assert_eq!(same.scene().unwrap(), all);
+        // All of them are the scene as it is, which is traced once.
+        assert_eq!(trial.with_surfaces(16, 16), trial);
+        assert_eq!(trial.with_lights(10, 10), trial);
+        assert_eq!(trial.with_surfaces(4, 16), few);
+        assert_eq!(trial.with_lights(3, 10), lights);
         let opaque = Trial {
             opaque: true,
             ..trial

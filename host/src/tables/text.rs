@@ -43,10 +43,7 @@ pub fn of(table: &Table) -> String {
     let mut text = format!("Table {}: {}\n\n", table.table.name(), table.title);
     let _ = write!(text, "{drawn}\n\n");
     for datum in &table.also {
-        let _ = writeln!(
-            text,
-            "- The thesis has, of a scene not known here: {datum}."
-        );
+        let _ = writeln!(text, "- The thesis also has, for no line above: {datum}.");
     }
     for note in &table.notes {
         let _ = writeln!(text, "- {note}");

@@ -86,10 +86,7 @@ pub fn two(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
         let all = subject.scene()?.lights.len();
         let sets = [all, 1, 2, 4, 8].map(|lights| lights.min(all));
         for lights in with_the_thesis(sets, thesis, Number::Two, subject) {
-            let trial = Trial {
-                lights: Some(lights),
-                ..Trial::of(subject)
-            };
+            let trial = Trial::of(subject).with_lights(lights, all);
             trials.push((trial, lights.to_string()));
         }
     }
@@ -143,10 +140,7 @@ pub fn five(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
         let all = subject.scene()?.objects.len();
         let counts = [all / 4, all / 2, all];
         for few in with_the_thesis(counts, thesis, Number::Five, subject) {
-            let trial = Trial {
-                surfaces: Some(few),
-                ..Trial::of(subject)
-            };
+            let trial = Trial::of(subject).with_surfaces(few, all);
             trials.push((trial, few.to_string()));
         }
     }
@@ -270,6 +264,22 @@ fn draft(
 mod tests {
     use super::super::thesis::tests::thesis;
     use super::*;
+    use crate::interrupt::Interrupt;
+
+    #[test]
+    fn a_scene_as_it_is_is_traced_once_for_all_tables() {
+        let interrupt = Interrupt::new();
+        let lab = Lab::new(Some((8, 8)), false, &interrupt);
+        let nothing = Thesis::default();
+        four(&lab).unwrap();
+        // Each figure as it is, and opaque.
+        assert_eq!(lab.traced(), 10);
+        five(&lab, &nothing).unwrap();
+        // A quarter and a half of its surfaces.
+        assert_eq!(lab.traced(), 20);
+        let lines = two(&lab, &nothing).unwrap().lines.len();
+        assert_eq!(lab.traced(), 20 + lines - 5);
+    }
 
     #[test]
     fn what_the_thesis_has_is_traced_if_there_is_enough() {

@@ -38,11 +38,8 @@ pub(super) fn failures(rows: &[Row]) -> Vec<String> {
 
 /// The board, the arithmetic, and the format if that is another.
 fn head(row: &Row) -> String {
-    let arith = row.arith.name();
-    match &row.format {
-        Some(format) if format != arith => format!("{} {arith}: {format}", row.board.name),
-        _ => format!("{} {arith}", row.board.name),
-    }
+    let format = row.format.as_deref().unwrap_or_default();
+    format!("{} {}", row.board.name, row.arith.with_format(format))
 }
 
 #[cfg(test)]
