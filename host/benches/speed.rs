@@ -9,13 +9,18 @@
 //! second table shows how speed falls as scenes grow. The pictures of these are known: if a hash is
 //! another than in [`KNOWN`], or differs between rounds or numbers of threads, the benchmark fails.
 
+mod common {
+    pub(crate) mod table;
+    pub(crate) mod timing;
+}
+
 use clap::Parser;
-use comfy_table::{CellAlignment, Table, presets};
-use octray::cli::{Cli, Command};
+use comfy_table::Table;
+use common::table::table;
+use common::timing;
 use octray::error::Error;
 use octray::generate::{self, GenerateJob};
 use octray::interrupt::Interrupt;
-use octray::job::RenderJob;
 use octray::progress::Progress;
 use octray::render::Traced;
 use octray_scenes::generate::{Kind, Spec};
@@ -209,8 +214,8 @@ impl Subject {
         let begin = Instant::now();
         let scene = octray::check::read(&self.path)?;
         let parse = begin.elapsed().as_secs_f64();
-        let trace = |threads| -> Result<Traced, Error> {
-            let job = job(&self.path, threads)?;
+        let trace = |threads: u32| -> Result<Traced, Error> {
+            let job = timing::job(&self.path, &format!("{OPTIONS} --threads {threads}"))?;
             octray::trace::trace(&scene, &job, &Progress::hidden(), &Interrupt::new())
         };
         let (one, two) = (trace(1)?, trace(2)?);
@@ -230,13 +235,7 @@ impl Subject {
 
     /// The median over the rounds.
     fn median(&self, value: impl Fn(&Sample) -> f64) -> f64 {
-        let mut values: Vec<_> = self.samples.iter().map(value).collect();
-        values.sort_by(f64::total_cmp);
-        let middle = values.len() / 2;
-        match values.len() % 2 {
-            1 => values[middle],
-            _ => (values[middle - 1] + values[middle]) / 2.0,
-        }
+        timing::median(&self.samples, value)
     }
 
     /// Seconds of the fastest rendering on one thread.
@@ -263,22 +262,6 @@ impl Subject {
             );
         }
         wrong.is_none()
-    }
-}
-
-/// What `octray render` makes of [`OPTIONS`].
-fn job(scene: &Path, threads: u32) -> Result<RenderJob, Error> {
-    let mut line = vec![
-        "octray".into(),
-        "render".into(),
-        scene.as_os_str().to_owned(),
-    ];
-    line.extend(OPTIONS.split(' ').map(Into::into));
-    line.push(format!("--threads={threads}").into());
-    match Cli::try_parse_from(line).map(|cli| cli.command) {
-        Ok(Command::Render(args)) => args.job(),
-        Ok(other) => Err(Error::Usage(format!("{other:?} does not render"))),
-        Err(error) => Err(Error::Usage(error.to_string())),
     }
 }
 
@@ -342,18 +325,6 @@ fn growth(subjects: &[Subject]) -> Table {
         row.extend(speeds.map(|speed| format!("{speed:.2}")));
         row.push(format!("{:.2}", speeds[0] / speeds[SIZES.len() - 1]));
         table.add_row(row);
-    }
-    table
-}
-
-/// A Markdown table, numbers to the right.
-fn table(heading: &[&str]) -> Table {
-    let mut table = Table::new();
-    table
-        .load_style(presets::ASCII_MARKDOWN)
-        .set_header(heading);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }

@@ -2,19 +2,27 @@
 //!
 //! `cargo bench -p octray --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at
 //! 512 × 512 in f32. Every round takes each scene in turn: on the first core, on the second, on both at once
-//! by threads that have nothing to do with each other, and by two threads that share the picture in each of
-//! [`PACKINGS`]. What two cores lose against one where nothing is shared is the contention that the
-//! simulation is given, and 2 / (1 + contention) is all that this machine allows. Figures are medians over the
-//! rounds. It fails if a picture is another than on one thread.
+//! by threads that have nothing to do with each other, and in each of [`PACKINGS`] by two threads that share the
+//! picture and by one alone. What two cores lose against one where nothing is shared is the contention that
+//! the simulation is given, and 2 / (1 + contention) is all that this machine allows. Speed-ups are over one
+//! thread that takes the same packets, since some shapes take fewer instructions than others; the last but one
+//! column is over the fastest thread whatever its packets. Figures are medians over the rounds. It fails if a
+//! picture is another than on one thread.
+
+mod common {
+    pub(crate) mod table;
+    pub(crate) mod timing;
+}
 
 use clap::Parser;
-use comfy_table::{CellAlignment, Table, presets};
-use octray::cli::{Cli, Command};
+use comfy_table::CellAlignment;
+use common::table::table;
+use common::timing::{job, median};
 use octray::cost::{CostMap, dearest_first};
 use octray::deal::Deal;
 use octray::error::Error;
 use octray::interrupt::Interrupt;
-use octray::job::RenderJob;
+use octray::job::{RenderJob, WorkOptions};
 use octray::packing::{HAND_OUT, PER_PACKET};
 use octray::progress::Progress;
 use octray::render::Traced;
@@ -26,6 +34,9 @@ use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::Path;
 use std::process::ExitCode;
 use std::thread;
+
+/// How large every picture is.
+const SIZE: &str = "--size 512x512";
 
 const FIGURES: [u32; 5] = [19, 20, 21, 22, 23];
 
@@ -70,15 +81,15 @@ fn run(args: &Args) -> Result<(), Error> {
             subject.samples.push(sample);
         }
     }
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let mut table = table(&[
         "scene",
-        "one thread, ms",
         "machine allows",
-        "shared by two threads",
+        "one thread, ms",
         "measured",
         "expected",
         "difference",
+        "over the fastest thread",
+        "shared by two threads",
         "picture",
     ]);
     for subject in &subjects {
@@ -86,10 +97,8 @@ fn run(args: &Args) -> Result<(), Error> {
             table.add_row(row);
         }
     }
-    for column in [1, 2, 4, 5, 6] {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
+    for column in table.column_iter_mut().skip(7) {
+        column.set_cell_alignment(CellAlignment::Left);
     }
     println!("{table}");
     Ok(())
@@ -99,19 +108,28 @@ fn run(args: &Args) -> Result<(), Error> {
 struct Subject {
     name: String,
     scene: Scene,
-    alone: RenderJob,
-    shared: Vec<RenderJob>,
+    /// As one thread packs it if nothing is asked for.
+    fixed: RenderJob,
+    packings: Vec<Packing>,
     samples: Vec<Sample>,
 }
 
-/// One round.
+/// A way to share a picture.
+struct Packing {
+    name: &'static str,
+    shared: RenderJob,
+    /// The same packets on one thread.
+    alone: RenderJob,
+}
+
+/// One round; seconds on one core are the mean of both.
 struct Sample {
-    /// Seconds on one core, the mean of both.
-    alone: f64,
-    /// Seconds on both at once, each for a picture of its own.
+    /// On one core, as one thread packs it.
+    fixed: f64,
+    /// On both at once, each for a picture of its own.
     beside: f64,
-    /// What came of each packing.
-    shared: Vec<Traced>,
+    /// What came of each packing, and the seconds that it took on one core.
+    packed: Vec<(Traced, f64)>,
 }
 
 impl Subject {
@@ -119,75 +137,108 @@ impl Subject {
         let name = format!("figure-{figure}");
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
         let path = folder.join(&name).with_extension("scene");
-        let shared =
-            PACKINGS.map(|(_, packing)| job(&path, &format!("--threads 2 --pin {packing}")));
+        let scene = check::read(&path)?;
+        let packing = |(name, options): (&'static str, &str)| -> Result<Packing, Error> {
+            let shared = job(&path, &format!("{SIZE} --threads 2 --pin {options}"))?;
+            let work = on_its_own(|| trace(&scene, &shared))?.work;
+            let alone = RenderJob {
+                work: WorkOptions {
+                    threads: NonZeroUsize::MIN,
+                    policy: Some(work.schedule),
+                    packet: Some(work.packet),
+                    pin: false,
+                    ..shared.work
+                },
+                ..shared.clone()
+            };
+            Ok(Packing {
+                name,
+                shared,
+                alone,
+            })
+        };
         Ok(Self {
             name,
-            scene: check::read(&path)?,
-            alone: job(&path, "--threads 1 --packet-rows 16 --packet-columns 16")?,
-            shared: shared.into_iter().collect::<Result<_, _>>()?,
+            fixed: job(&path, &format!("{SIZE} --threads 1"))?,
+            packings: PACKINGS
+                .into_iter()
+                .map(packing)
+                .collect::<Result<_, _>>()?,
+            scene,
             samples: Vec::new(),
         })
     }
 
     fn measure(&self) -> Result<Sample, Error> {
-        let on = |core: usize| -> Result<Traced, Error> {
+        let on = |core: usize, job: &RenderJob| -> Result<Traced, Error> {
             threads::pin(core)?;
-            self.trace(&self.alone)
+            trace(&self.scene, job)
         };
-        // Threads of their own, since pinning lasts.
-        let one = |core| thread::scope(|scope| joined(scope.spawn(move || on(core))));
-        let (first, second) = (one(0)?, one(1)?);
+        let mean = |a: &Traced, b: &Traced| (a.render + b.render).as_secs_f64() / 2.0;
+        let each = |job: &RenderJob| -> Result<(Traced, f64), Error> {
+            let first = on_its_own(|| on(0, job))?;
+            let second = on_its_own(|| on(1, job))?;
+            let seconds = mean(&first, &second);
+            Ok((first, seconds))
+        };
+        let (first, fixed) = each(&self.fixed)?;
         let (left, right) = thread::scope(|scope| {
-            let (left, right) = (scope.spawn(|| on(0)), scope.spawn(|| on(1)));
+            let left = scope.spawn(|| on(0, &self.fixed));
+            let right = scope.spawn(|| on(1, &self.fixed));
             (joined(left), joined(right))
         });
-        let mean = |a: &Traced, b: &Traced| (a.render + b.render).as_secs_f64() / 2.0;
-        let shared = self.shared.iter().map(|job| {
-            // On a thread of its own for the same reason.
-            let traced = thread::scope(|scope| joined(scope.spawn(|| self.trace(job))))?;
+        let packed = self.packings.iter().map(|packing| {
+            let (_, alone) = each(&packing.alone)?;
+            let traced = on_its_own(|| trace(&self.scene, &packing.shared))?;
             match traced.picture == first.picture {
-                true => Ok(traced),
+                true => Ok((traced, alone)),
                 false => Err(Error::Failed(format!("{}: another picture", self.name))),
             }
         });
         Ok(Sample {
-            alone: mean(&first, &second),
+            fixed,
             beside: mean(&left?, &right?),
-            shared: shared.collect::<Result<_, _>>()?,
+            packed: packed.collect::<Result<_, _>>()?,
         })
     }
 
-    fn trace(&self, job: &RenderJob) -> Result<Traced, Error> {
-        trace::trace(&self.scene, job, &Progress::hidden(), &Interrupt::new())
-    }
-
     /// What was measured of each packing, and what the simulation expects of it.
-    fn rows(&self) -> Result<Vec<[String; 8]>, Error> {
-        let contention = self.median(|sample| sample.beside / sample.alone) - 1.0;
-        let alone = self.median(|sample| sample.alone);
-        let row = |(i, (name, _)): (usize, &(&str, &str))| {
-            let measured = self.median(|s| s.alone / s.shared[i].render.as_secs_f64());
-            let traced = &self.samples[0].shared[i];
+    fn rows(&self) -> Result<Vec<[String; 9]>, Error> {
+        let samples = &self.samples;
+        let contention = median(samples, |s| s.beside / s.fixed) - 1.0;
+        let alone = |i: usize| median(samples, |s| s.packed[i].1);
+        let fastest = (0..self.packings.len())
+            .map(alone)
+            .fold(median(samples, |s| s.fixed), f64::min);
+        let row = |(i, packing): (usize, &Packing)| {
+            let seconds = |s: &Sample| s.packed[i].0.render.as_secs_f64();
+            let measured = median(samples, |s| s.packed[i].1 / seconds(s));
+            let traced = &samples[0].packed[i].0;
             let expected = self.expected(traced, contention.max(0.0))?;
             let work = &traced.work;
             Ok([
                 self.name.clone(),
-                format!("{:.1}", alone * 1e3),
                 format!("{:.3}", 2.0 / (1.0 + contention)),
-                format!("{name}: {}, {}", work.packet, work.schedule.name()),
+                format!("{:.1}", alone(i) * 1e3),
                 format!("{measured:.3}"),
                 format!("{expected:.3}"),
                 format!("{:+.1} %", 100.0 * (expected / measured - 1.0)),
+                format!("{:.3}", fastest / median(samples, seconds)),
+                format!(
+                    "{}: {}, {}",
+                    packing.name,
+                    work.packet,
+                    work.schedule.name()
+                ),
                 format!("{:016x}", traced.picture.hash()),
             ])
         };
-        PACKINGS.iter().enumerate().map(row).collect()
+        self.packings.iter().enumerate().map(row).collect()
     }
 
     /// The speed-up that the simulation expects, knowing what each pixel costs.
     fn expected(&self, traced: &Traced, contention: f64) -> Result<f64, Error> {
-        let job = &self.alone;
+        let job = &self.fixed;
         let engine = engine::build(&self.scene, job.arith, &job.tree, &job.view)?;
         let map = CostMap::probe(&*engine, NonZeroU32::MIN, &Interrupt::new())?;
         let work = &traced.work;
@@ -204,37 +255,20 @@ impl Subject {
         };
         Ok(simulate(&costs, &deal, &machine).speed_up)
     }
+}
 
-    fn median(&self, value: impl Fn(&Sample) -> f64) -> f64 {
-        let mut values: Vec<_> = self.samples.iter().map(value).collect();
-        values.sort_by(f64::total_cmp);
-        let middle = values.len() / 2;
-        match values.len() % 2 {
-            1 => values[middle],
-            _ => (values[middle - 1] + values[middle]) / 2.0,
-        }
-    }
+fn trace(scene: &Scene, job: &RenderJob) -> Result<Traced, Error> {
+    trace::trace(scene, job, &Progress::hidden(), &Interrupt::new())
+}
+
+/// Does something on a thread of its own, since pinning lasts.
+fn on_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    thread::scope(|scope| joined(scope.spawn(work)))
 }
 
 fn joined<T>(handle: thread::ScopedJoinHandle<'_, T>) -> T {
     match handle.join() {
         Ok(value) => value,
         Err(panic) => std::panic::resume_unwind(panic),
-    }
-}
-
-/// What `octray render` makes of a scene and options.
-fn job(scene: &Path, options: &str) -> Result<RenderJob, Error> {
-    let line = [
-        "octray".as_ref(),
-        "render".as_ref(),
-        scene.as_os_str(),
-        "--size=512x512".as_ref(),
-    ];
-    let options = options.split_whitespace().map(AsRef::as_ref);
-    match Cli::try_parse_from(line.into_iter().chain(options)).map(|cli| cli.command) {
-        Ok(Command::Render(args)) => args.job(),
-        Ok(other) => Err(Error::Usage(format!("{other:?} does not render"))),
-        Err(error) => Err(Error::Usage(error.to_string())),
     }
 }

@@ -6,12 +6,16 @@
 //! instructions of each strip. The weights are those of least squared relative error that are not negative.
 //! Nothing here depends on how fast the machine is or on what else it does.
 
+mod common {
+    pub(crate) mod table;
+}
+
 use clap::Parser;
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::Table;
+use common::table::table;
 use octray::cost::{self, EVENTS, NAMES, WEIGHTS};
 use octray::packets::{Packets, Shape};
 use octray::picture::Picture;
-use octray_core::packet::Region;
 use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Worker};
@@ -76,10 +80,7 @@ fn trace() -> Result<(), Box<dyn Error>> {
     for (name, scene) in scenes()? {
         let engine = engine::build(&scene, Arith::F32, &tree, &view)?;
         let mut picture = Picture::black(SIZE, SIZE, false).ok_or("no memory")?;
-        let region = Region {
-            columns: 0..SIZE,
-            rows: engine.built().active.rows.clone(),
-        };
+        let region = engine.built().region();
         let packets = Packets::cut(&mut picture, &region, Shape::strip(ROWS));
         for index in 0..packets.len() {
             let packet = packets.take(index).ok_or("a packet is gone")?;
@@ -233,18 +234,6 @@ fn errors(samples: &[Sample], fitted: &[f64; EVENTS]) -> Table {
             format!("{:+.1} %", 100.0 * mean(&WEIGHTS)),
             format!("{:.1} %", 100.0 * deviation(&WEIGHTS)),
         ]);
-    }
-    table
-}
-
-/// A Markdown table, numbers to the right.
-fn table(heading: &[&str]) -> Table {
-    let mut table = Table::new();
-    table
-        .load_style(presets::ASCII_MARKDOWN)
-        .set_header(heading);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }

@@ -6,7 +6,7 @@
 use clap::ValueEnum;
 use serde::Serialize;
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 /// Which processor gets which packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum, Serialize)]
@@ -54,6 +54,10 @@ pub struct Deal {
     /// The next packet, or place in `order`, of the policies that deal from one pile.
     next: AtomicUsize,
     order: Vec<u32>,
+    /// Whether an idle processor found nothing left to take from others.
+    nothing_left: AtomicBool,
+    /// Whether packets come in messages from the first processor.
+    in_messages: bool,
 }
 
 /// A packet dealt.
@@ -86,6 +90,17 @@ impl Deal {
             hands: (0..processors).map(|p| AtomicU64::new(hand(p))).collect(),
             next: AtomicUsize::new(0),
             order,
+            nothing_left: AtomicBool::new(false),
+            in_messages: false,
+        }
+    }
+
+    /// The same by messages from the first processor, as to the ranks of an MPI job: every packet for another one
+    /// comes from others, whatever the policy, and none of its own.
+    pub fn in_messages(self) -> Self {
+        Self {
+            in_messages: true,
+            ..self
         }
     }
 
@@ -96,6 +111,15 @@ impl Deal {
 
     /// The next packet for `processor`; `None` if there is none left for it.
     pub fn next(&self, processor: usize) -> Option<Dealt> {
+        let Dealt { packet, shared } = self.deal(processor)?;
+        let shared = match self.in_messages {
+            true => processor != 0,
+            false => shared,
+        };
+        Some(Dealt { packet, shared })
+    }
+
+    fn deal(&self, processor: usize) -> Option<Dealt> {
         let own = |step| {
             let packet = self.take(processor, step)?;
             let shared = false;
@@ -149,6 +173,10 @@ impl Deal {
 
     /// Take the second half of the largest hand; all but its first packet go into the processor's own.
     fn steal(&self, processor: usize) -> Option<usize> {
+        // Hands only shrink but for what was stolen, so nobody has to look through all of them again.
+        if self.nothing_left.load(Ordering::Relaxed) {
+            return None;
+        }
         loop {
             // Among equally large hands the first.
             let victims = self.hands.iter().rev();
@@ -156,10 +184,11 @@ impl Deal {
             let held = victim.load(Ordering::Relaxed);
             if left(held) == 0 {
                 let nothing = |hand: &AtomicU64| left(hand.load(Ordering::Relaxed)) == 0;
-                match self.hands.iter().all(nothing) {
-                    true => return None,
-                    false => continue,
+                if self.hands.iter().all(nothing) {
+                    self.nothing_left.store(true, Ordering::Relaxed);
+                    return None;
                 }
+                continue;
             }
             let (first, end) = packets_of(held);
             let middle = first + (end - first) / 2;
@@ -285,6 +314,18 @@ mod tests {
     fn the_dearest_packet_comes_first() {
         let dealt = in_turns(Policy::CostOrdered, 4, 2, &[2, 0, 3, 1]);
         assert_eq!(dealt, [vec![2, 3], vec![0, 1]]);
+    }
+
+    #[test]
+    fn every_packet_for_others_than_the_first_is_a_message() {
+        for policy in Policy::value_variants() {
+            let two = const { NonZeroUsize::new(2).unwrap() };
+            let deal = Deal::new(*policy, 8, two, Vec::new()).in_messages();
+            for processor in [0, 1, 1, 0] {
+                let dealt = deal.next(processor).unwrap();
+                assert_eq!(dealt.shared, processor == 1, "{policy:?}");
+            }
+        }
     }
 
     #[test]

@@ -27,6 +27,24 @@ impl Shape {
         }
     }
 
+    /// Squares.
+    pub const fn tile(side: NonZeroU32) -> Self {
+        Self {
+            rows: side,
+            columns: Some(side),
+        }
+    }
+
+    /// How many packets cover a region.
+    pub fn count(self, region: &Region) -> usize {
+        let width = region.columns.len();
+        let across = match self.columns {
+            Some(columns) => width.div_ceil(columns.get() as usize),
+            None => usize::from(width > 0),
+        };
+        across * region.rows.len().div_ceil(self.rows.get() as usize)
+    }
+
     /// The packets that cover a region, row by row from its upper left corner.
     pub fn cut(self, region: &Region) -> impl Iterator<Item = Region> {
         let (rows, columns) = (region.rows.clone(), region.columns.clone());
@@ -170,7 +188,13 @@ mod tests {
         for (height, width) in shapes {
             for rows in [0..23, 7..20, 22..23, 20..99, 30..99, 5..5] {
                 for columns in [0..7, 2..5, 6..99, 9..99, 3..3] {
-                    let picture = paint(columns.clone(), rows.clone(), shape(height, width));
+                    let region = Region {
+                        columns: columns.clone(),
+                        rows: rows.clone(),
+                    };
+                    let tiles = shape(height, width);
+                    assert_eq!(tiles.count(&region), tiles.cut(&region).count());
+                    let picture = paint(columns.clone(), rows.clone(), tiles);
                     for (row, levels) in (0..).zip(picture.rows()) {
                         for (column, level) in (0..).zip(levels) {
                             let inside = rows.contains(&row) && columns.contains(&column);

@@ -2,8 +2,11 @@
 //! leaves that open.
 //!
 //! A coarse probe tells what parts of the picture cost; the simulation ([`crate::simulate`]) tells how long the
-//! threads would take with each packing. Both together take about half a percent of the time that the threads
-//! take to trace, and nothing depends on time measured: a scene is packed alike each time.
+//! threads would take with each packing. Nothing depends on time measured: a scene is packed alike each time.
+//!
+//! All that is to take less than 0.3 % of the time that the threads take to trace. Where even the smallest probe takes
+//! longer (512 x 512 pixels on more than four threads) nothing is probed: tiles dealt dynamically, so small that each
+//! thread gets a good many of them, waste less than finding out would.
 
 use crate::cost::{CostMap, dearest_first};
 use crate::deal::{Deal, Policy};
@@ -13,8 +16,9 @@ use crate::job::WorkOptions;
 use crate::packets::Shape;
 use crate::simulate::{Machine, simulate};
 use octray_core::packet::Region;
-use octray_engine::Engine;
+use octray_engine::{Built, Engine};
 use serde::Serialize;
+use std::collections::HashMap;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::time::Instant;
 
@@ -31,18 +35,25 @@ pub const HAND_OUT: f64 = 100.0;
 pub const MESSAGE: f64 = 30_000.0;
 
 /// The time for probing, and the time for simulating, as shares of the time for tracing on all threads.
-const SHARE: f64 = 0.002_5;
+const SHARE: f64 = 0.001;
 
-/// Instructions to simulate one packet.
-const EVENT: f64 = 300.0;
+/// Pixels that are probed at least: with fewer, nothing is known of what parts of the picture cost.
+const FEWEST: f64 = 64.0;
+
+/// Pixels that are probed at most.
+const MOST: f64 = 1024.0;
+
+/// Instructions to simulate that a processor asks for a packet, the packet's cost being looked up: what Callgrind
+/// counts in [`Search::best`].
+const EVENT: f64 = 600.0;
 
 /// A packing that wastes no more than this share of the time is not worth improving.
 const WASTE: f64 = 0.002;
 
-/// What is taken if nothing is to be chosen.
+/// What is taken if nothing is to be chosen, and what is tried first else.
 pub const FIXED: (Policy, Shape) = (
     Policy::Dynamic,
-    Shape::strip(const { NonZeroU32::new(4).unwrap() }),
+    Shape::tile(const { NonZeroU32::new(16).unwrap() }),
 );
 
 /// The policies to choose from; among equally good ones the first, which relies the least on estimates.
@@ -58,6 +69,10 @@ const POLICIES: [Policy; 6] = [
 /// Sides of tiles to choose from. Among equally good shapes the first is taken, and rays that are near each
 /// other find the same objects: with 16 x 16 pixels the figures take the fewest instructions.
 const TILES: [u32; 4] = [16, 8, 32, 64];
+
+/// Without a probe the first side of tiles with which each thread gets so many: in the figures the loss at the end is
+/// then about as large as what more packets would cost.
+const UNPROBED: [(u32, usize); 3] = [(16, 64), (8, 24), (4, 0)];
 
 /// Rows of strips to choose from, after tiles.
 const STRIPS: [u32; 5] = [1, 2, 4, 8, 16];
@@ -84,9 +99,9 @@ pub struct Forecast {
     pub simulated: usize,
     /// Seconds for both.
     pub seconds: f64,
-    /// The speed-up that the simulation expects.
+    /// The speed-up that the simulation expects, the time for the probe included.
     pub speed_up: f64,
-    /// The speed-up that it expects of strips of four rows, dealt dynamically.
+    /// The speed-up that it expects of [`FIXED`] without a probe.
     pub fixed: f64,
 }
 
@@ -100,11 +115,10 @@ pub fn choose(
     work: &WorkOptions,
     interrupt: &Interrupt,
 ) -> Result<Packing, Error> {
-    let (policy, shape) = (
-        work.policy.unwrap_or(FIXED.0),
-        work.packet.unwrap_or(FIXED.1),
-    );
-    let open = work.policy.is_none() || work.packet.is_none();
+    let built = engine.built();
+    let mut policy = work.policy.unwrap_or(FIXED.0);
+    let mut shape = work.packet.unwrap_or(unprobed(region, work));
+    let open = (work.policy.is_none() || work.packet.is_none()) && is_worth_a_probe(built, work);
     if work.threads.get() == 1 || !(open || policy == Policy::CostOrdered) {
         return Ok(Packing {
             policy,
@@ -114,46 +128,70 @@ pub fn choose(
         });
     }
     let begin = Instant::now();
-    let block = engine.built().block;
-    let apart = (work.threads.get() as f64 / SHARE).sqrt().ceil() as u32;
-    let cell = NonZeroU32::new(apart * block).unwrap_or(NonZeroU32::MIN);
+    let apart = apart(built, work.threads);
+    let cell = NonZeroU32::new(apart * built.block).unwrap_or(NonZeroU32::MIN);
     let map = CostMap::probe(engine, cell, interrupt)?;
     let search = Search {
         map: &map,
         region,
         threads: work.threads,
-        hand_out: match work.mpi {
-            true => MESSAGE,
-            false => HAND_OUT,
-        },
+        messages: work.mpi,
         serial: map.cost(region) / f64::from(apart).powi(2),
     };
-    let candidates = match open {
-        true => candidates(work, block),
-        false => Vec::new(),
-    };
-    let (best, simulated) = search.best(&candidates);
-    let (policy, shape) = best.map_or((policy, shape), |best| (best.policy, best.shape));
+    let mut forecast = None;
+    if open {
+        let candidates = candidates(work, built.block);
+        let (best, fixed, simulated) = search.best(&candidates);
+        (policy, shape) = (best.policy, best.shape);
+        forecast = Some(Forecast {
+            probed: map.cells() as u64,
+            simulated,
+            speed_up: best.speed_up(search.serial),
+            fixed: fixed.speed_up(0.0),
+            seconds: begin.elapsed().as_secs_f64(),
+        });
+    }
     let order = match policy {
-        Policy::CostOrdered => dearest_first(&search.costs(shape)),
+        Policy::CostOrdered => dearest_first(&search.estimates(shape)),
         _ => Vec::new(),
     };
     Ok(Packing {
         policy,
         shape,
         order,
-        forecast: best.map(|best| Forecast {
-            probed: map.cells() as u64,
-            simulated,
-            speed_up: best.speed_up,
-            fixed: Search {
-                serial: 0.0,
-                ..search
-            }
-            .speed_up(FIXED.0, FIXED.1),
-            seconds: begin.elapsed().as_secs_f64(),
-        }),
+        forecast,
     })
+}
+
+/// The packets to take without a probe.
+fn unprobed(region: &Region, work: &WorkOptions) -> Shape {
+    // A message costs so much that more of them gain nothing.
+    if work.threads.get() == 1 || work.mpi {
+        return FIXED.1;
+    }
+    let mut sides = UNPROBED.into_iter().filter_map(|(side, packets)| {
+        let shape = Shape::tile(NonZeroU32::new(side)?);
+        (shape.count(region) / work.threads >= packets).then_some(shape)
+    });
+    sides.next().unwrap_or(FIXED.1)
+}
+
+/// Whether the smallest probe takes no more than its share of the time.
+fn is_worth_a_probe(built: &Built, work: &WorkOptions) -> bool {
+    FEWEST * work.threads.get() as f64 <= SHARE * blocks(built)
+}
+
+/// How many blocks there are that one ray colours.
+fn blocks(built: &Built) -> f64 {
+    let Region { columns, rows } = &built.active;
+    columns.len() as f64 * rows.len() as f64 / f64::from(built.block).powi(2)
+}
+
+/// How many blocks the probed ones are apart.
+fn apart(built: &Built, threads: NonZeroUsize) -> u32 {
+    let share = threads.get() as f64 / SHARE;
+    let one_in = share.max(blocks(built) / MOST).min(blocks(built) / FEWEST);
+    one_in.sqrt().max(1.0) as u32
 }
 
 /// All ways to pack that the user leaves open, those that are to be preferred first.
@@ -162,13 +200,9 @@ fn candidates(work: &WorkOptions, block: u32) -> Vec<(Policy, Shape)> {
         let whole = all.iter().filter(move |side| **side >= block);
         whole.filter_map(|side| NonZeroU32::new(*side))
     };
-    let tile = |side| Shape {
-        rows: side,
-        columns: Some(side),
-    };
     let shapes = match work.packet {
         Some(shape) => vec![shape],
-        None => (sides(&TILES).map(tile))
+        None => (sides(&TILES).map(Shape::tile))
             .chain(sides(&STRIPS).map(Shape::strip))
             .collect(),
     };
@@ -180,12 +214,25 @@ fn candidates(work: &WorkOptions, block: u32) -> Vec<(Policy, Shape)> {
     policies.into_iter().flat_map(all).collect()
 }
 
-/// A packing, and the speed-up expected of it.
+/// A packing, simulated. Times are in instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Candidate {
     policy: Policy,
     shape: Shape,
-    speed_up: f64,
+    /// The time that one thread takes which does without packets.
+    alone: f64,
+    /// The time that all threads take.
+    shared: f64,
+}
+
+impl Candidate {
+    /// The speed-up if the threads begin only after some time.
+    fn speed_up(&self, serial: f64) -> f64 {
+        match self.shared + serial {
+            time if time > 0.0 => self.alone / time,
+            _ => 1.0,
+        }
+    }
 }
 
 /// A picture to be packed.
@@ -194,73 +241,89 @@ struct Search<'a> {
     map: &'a CostMap,
     region: &'a Region,
     threads: NonZeroUsize,
-    /// Instructions to hand out a packet.
-    hand_out: f64,
+    /// Whether packets come in messages.
+    messages: bool,
     /// Instructions before the threads begin.
     serial: f64,
 }
 
 impl Search<'_> {
-    /// The best candidate, and how many were tried: until one leaves nothing to be won, or trying has taken as
-    /// long as it may. The first one is tried in any case.
-    fn best(&self, candidates: &[(Policy, Shape)]) -> (Option<Candidate>, usize) {
-        let threads = self.threads.get() as f64;
-        let mut left = self.map.cost(self.region) / threads * SHARE / EVENT;
-        let (mut best, mut tried) = (None, 0);
+    /// The best candidate, beside [`FIXED`], and how many packings were tried: until one leaves nothing to be won
+    /// or trying has taken as long as it may. [`FIXED`] and the first candidate are tried in any case.
+    fn best(&self, candidates: &[(Policy, Shape)]) -> (Candidate, Candidate, usize) {
+        let (total, threads) = (self.map.cost(self.region), self.threads.get() as f64);
+        let mut left = total / threads * SHARE / EVENT;
+        let mut packed: HashMap<Shape, Vec<f64>> = HashMap::new();
+        let mut simulate = |policy, shape| {
+            let costs = packed.entry(shape).or_insert_with(|| self.costs(shape));
+            self.simulate(policy, shape, costs)
+        };
+        let events = |shape: Shape| shape.count(self.region) as f64 + threads;
+        left -= events(FIXED.1);
+        let fixed = simulate(FIXED.0, FIXED.1);
+        let (mut best, mut tried): (Option<Candidate>, _) = (None, 1);
         for &(policy, shape) in candidates {
-            let packets = shape.cut(self.region).count();
-            left -= packets as f64;
-            if left < 0.0 && tried > 0 {
+            let candidate = match (policy, shape) == FIXED {
+                true => fixed,
                 // A coarser one may still be worth its time.
-                left += packets as f64;
-                continue;
-            }
-            let speed_up = self.speed_up(policy, shape);
-            tried += 1;
-            let better = |best: Candidate| speed_up > best.speed_up * (1.0 + WASTE / 2.0);
+                false if best.is_some() && left < events(shape) => continue,
+                false => {
+                    left -= events(shape);
+                    tried += 1;
+                    simulate(policy, shape)
+                }
+            };
+            let speed_up = candidate.speed_up(self.serial);
+            let better =
+                |best: Candidate| speed_up > best.speed_up(self.serial) * (1.0 + WASTE / 2.0);
             if best.is_none_or(better) {
-                best = Some(Candidate {
-                    policy,
-                    shape,
-                    speed_up,
-                });
+                best = Some(candidate);
             }
-            if speed_up >= threads * (1.0 - WASTE) {
+            let most = total / (total / threads + self.serial);
+            if speed_up >= most * (1.0 - WASTE) {
                 break;
             }
         }
-        (best, tried)
+        (best.unwrap_or(fixed), fixed, tried)
     }
 
     /// What packets of a shape are estimated to cost.
-    fn costs(&self, shape: Shape) -> Vec<f64> {
+    fn estimates(&self, shape: Shape) -> Vec<f64> {
         let parts = shape.cut(self.region);
         parts.map(|part| self.map.cost(&part)).collect()
     }
 
-    /// The speed-up over one thread that does without packets, if the estimates are as wrong as they probably
-    /// are: what is dealt by them is then not what it costs.
-    fn speed_up(&self, policy: Policy, shape: Shape) -> f64 {
-        let order = match policy {
-            Policy::CostOrdered => dearest_first(&self.costs(shape)),
-            _ => Vec::new(),
-        };
+    /// What packets of a shape cost if the estimates are as wrong as they probably are.
+    fn costs(&self, shape: Shape) -> Vec<f64> {
         let wrong = |(packet, part): (u64, Region)| {
-            let cost = self.map.cost(&part) + coin(packet) * self.map.error(&part);
+            let cost = self.map.cost(&part) * (1.0 + coin(packet) * self.map.error(&part));
             cost.max(0.0)
         };
-        let mut costs: Vec<_> = (0..).zip(shape.cut(self.region)).map(wrong).collect();
-        let alone: f64 = costs.iter().sum();
-        costs.iter_mut().for_each(|cost| *cost += PER_PACKET);
+        (0..).zip(shape.cut(self.region)).map(wrong).collect()
+    }
+
+    /// How long the threads take with packets of a shape that cost what is given; what is dealt by estimates is not
+    /// what it costs.
+    fn simulate(&self, policy: Policy, shape: Shape, costs: &[f64]) -> Candidate {
+        let order = match policy {
+            Policy::CostOrdered => dearest_first(&self.estimates(shape)),
+            _ => Vec::new(),
+        };
+        let mut deal = Deal::new(policy, costs.len(), self.threads, order);
+        let mut hand_out = HAND_OUT;
+        if self.messages {
+            (deal, hand_out) = (deal.in_messages(), MESSAGE);
+        }
         let machine = Machine {
-            hand_out: self.hand_out,
-            serial: self.serial,
+            hand_out,
             ..Machine::default()
         };
-        let deal = Deal::new(policy, costs.len(), self.threads, order);
-        match simulate(&costs, &deal, &machine).time {
-            time if time > 0.0 => alone / time,
-            _ => 1.0,
+        let with_packets: Vec<f64> = costs.iter().map(|cost| cost + PER_PACKET).collect();
+        Candidate {
+            policy,
+            shape,
+            alone: costs.iter().sum(),
+            shared: simulate(&with_packets, &deal, &machine).time,
         }
     }
 }
@@ -290,7 +353,7 @@ mod tests {
         octray_scenes::parse::parse(BALL).unwrap()
     }
 
-    fn engine(scene: &Scene, pixels_per_ray: PixelsPerRay) -> Box<dyn Engine> {
+    fn engine(scene: &Scene, size: u32, pixels_per_ray: PixelsPerRay) -> Box<dyn Engine> {
         let tree = TreeOptions {
             kind: Tree::Tight,
             depth: None,
@@ -299,7 +362,7 @@ mod tests {
             link: Link::Shape,
         };
         let view = ViewOptions {
-            size: None,
+            size: Some((size, size)),
             pixels_per_ray,
             samples: 1,
             max_depth: 8,
@@ -308,9 +371,14 @@ mod tests {
         octray_engine::build(scene, Arith::F32, &tree, &view).unwrap()
     }
 
+    /// In a picture so large that its choice is worth a probe on up to seven threads.
     fn packing(work: &WorkOptions) -> Packing {
-        let engine = engine(&scene(), PixelsPerRay::One);
-        let region = engine.built().active.clone();
+        packing_at(1000, work)
+    }
+
+    fn packing_at(size: u32, work: &WorkOptions) -> Packing {
+        let engine = engine(&scene(), size, PixelsPerRay::One);
+        let region = engine.built().region();
         choose(&*engine, &region, work, &Interrupt::new()).unwrap()
     }
 
@@ -350,19 +418,52 @@ mod tests {
     }
 
     #[test]
-    fn the_choice_is_better_than_fixed_strips_and_within_the_bounds() {
-        for threads in [2, 3, 16, 100] {
-            let work = work(threads, None, None);
-            let packing = packing(&work);
-            let forecast = packing.forecast.unwrap();
+    fn the_choice_is_as_good_as_what_needs_no_probe_but_for_the_probe() {
+        for threads in [2, 3, 7] {
+            let forecast = packing(&work(threads, None, None)).forecast.unwrap();
             assert!(forecast.speed_up <= threads as f64, "{forecast:?}");
-            // On two threads the probe may cost as much as it wins.
-            assert!(forecast.speed_up > forecast.fixed * 0.99, "{forecast:?}");
-            if threads > 32 {
-                // There are no more than 32 strips.
-                assert!(forecast.speed_up > 1.3 * forecast.fixed, "{forecast:?}");
+            assert!(forecast.speed_up > forecast.fixed * 0.997, "{forecast:?}");
+        }
+    }
+
+    #[test]
+    fn the_probe_takes_its_share_and_sees_enough() {
+        for size in [8, 128, 1000, 4000] {
+            let engine = engine(&scene(), size, PixelsPerRay::One);
+            let blocks = blocks(engine.built());
+            for threads in [2, 7, 100, 65_536] {
+                let probed = |apart: u32| blocks / f64::from(apart).powi(2);
+                let work = work(threads, None, None);
+                let apart = apart(engine.built(), work.threads);
+                assert!(probed(apart) >= FEWEST.min(blocks), "{size} {threads}");
+                assert!(apart == 1 || probed(apart + 1) <= MOST, "{size} {threads}");
+                if is_worth_a_probe(engine.built(), &work) {
+                    let share = probed(apart + 1) / blocks * threads as f64;
+                    assert!(share <= SHARE, "{size} {threads}: {share}");
+                }
             }
         }
+    }
+
+    #[test]
+    fn without_a_probe_every_thread_gets_a_good_many_tiles() {
+        // The square is 625 pixels wide.
+        let shape = |threads| {
+            let packing = packing_at(1000, &work(threads, None, None));
+            assert_eq!(packing.forecast, None, "{threads}");
+            packing.shape.to_string()
+        };
+        assert_eq!(shape(20), "16 x 16 pixels");
+        assert_eq!(shape(100), "8 x 8 pixels");
+        assert_eq!(shape(65_536), "4 x 4 pixels");
+        let ordered = packing_at(128, &work(20, Some(Policy::CostOrdered), None));
+        assert_eq!(ordered.forecast, None);
+        assert!(!ordered.order.is_empty());
+        let ranks = WorkOptions {
+            mpi: true,
+            ..work(100, None, None)
+        };
+        assert_eq!(packing_at(128, &ranks).shape, FIXED.1);
     }
 
     #[test]
@@ -392,9 +493,12 @@ mod tests {
     #[test]
     fn nothing_to_see_is_packed_all_the_same() {
         let scene = octray_scenes::parse::parse("v 0 0 -9 resolution 8 8").unwrap();
-        let engine = engine(&scene, PixelsPerRay::Four);
-        let region = engine.built().active.clone();
-        let packing = choose(&*engine, &region, &work(4, None, None), &Interrupt::new()).unwrap();
-        assert_eq!(packing.forecast.map(|f| f.speed_up), Some(1.0));
+        let engine = engine(&scene, 8, PixelsPerRay::Four);
+        let region = engine.built().region();
+        for policy in [None, Some(Policy::CostOrdered)] {
+            let work = work(4, policy, None);
+            let packing = choose(&*engine, &region, &work, &Interrupt::new()).unwrap();
+            assert_eq!(packing.forecast, None);
+        }
     }
 }

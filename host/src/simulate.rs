@@ -34,6 +34,17 @@ pub struct Outcome {
 /// Until the first processor finds nothing left, all are busy and equally slow; so the events are found in the
 /// processors' own time, which contention stretches afterwards.
 pub fn simulate(costs: &[f64], deal: &Deal, machine: &Machine) -> Outcome {
+    simulate_messages(costs, deal, machine, |_| 0.0)
+}
+
+/// The same where a packet that comes from others keeps them for longer than [`Machine::hand_out`]: by what
+/// `more` says of its number.
+pub fn simulate_messages(
+    costs: &[f64],
+    deal: &Deal,
+    machine: &Machine,
+    more: impl Fn(usize) -> f64,
+) -> Outcome {
     let processors = deal.processors();
     let mut free: BinaryHeap<_> = (0..processors).map(|p| Reverse(Event(0.0, p))).collect();
     let mut desk_free: f64 = 0.0;
@@ -44,7 +55,7 @@ pub fn simulate(costs: &[f64], deal: &Deal, machine: &Machine) -> Outcome {
             continue;
         };
         if dealt.shared {
-            desk_free = desk_free.max(now) + machine.hand_out;
+            desk_free = desk_free.max(now) + machine.hand_out + more(dealt.packet);
             now = desk_free;
         }
         let cost = costs.get(dealt.packet).copied().unwrap_or_default();
@@ -177,6 +188,32 @@ mod tests {
         // Four processors ask at once: the last waits for four hand-outs.
         assert_eq!(run(&[10.0; 4], Policy::Dynamic, 4, machine).time, 18.0);
         assert_eq!(run(&[10.0; 4], Policy::Static, 4, machine).time, 10.0);
+    }
+
+    #[test]
+    fn each_packet_takes_its_own_time_to_hand_out() {
+        let deal = Deal::new(Policy::Dynamic, 2, NonZeroUsize::new(2).unwrap(), vec![]);
+        let machine = Machine {
+            hand_out: 1.0,
+            ..Machine::default()
+        };
+        let outcome = simulate_messages(&[10.0; 2], &deal, &machine, |packet| packet as f64);
+        // The second one waits for a hand-out of 1, and its own takes 2.
+        assert_eq!(outcome.time, 13.0);
+    }
+
+    #[test]
+    fn messages_queue_up_whatever_the_policy() {
+        let machine = Machine {
+            hand_out: 2.0,
+            ..Machine::default()
+        };
+        for policy in Policy::value_variants() {
+            let deal = Deal::new(*policy, 4, NonZeroUsize::new(4).unwrap(), vec![]);
+            let outcome = simulate(&[10.0; 4], &deal.in_messages(), &machine);
+            // The first processor's packet is no message.
+            assert_eq!(outcome.time, 16.0, "{policy:?}");
+        }
     }
 
     #[test]

@@ -115,6 +115,9 @@ pub struct Messages {
     pub bytes: u64,
     /// For how many seconds the first rank took packets back and handed out others.
     pub seconds: f64,
+    /// Instructions ([`crate::cost`]) that a rank traces while the first one does that with one packet: for
+    /// `octray schedule --messages --hand-out`.
+    pub hand_out: f64,
 }
 
 fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -195,7 +198,7 @@ pub(crate) mod tests {
             r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
             r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
-            r#""threads":2,"schedule":"dynamic","packet":{"rows":4,"columns":null},"packets":64,"#,
+            r#""threads":2,"schedule":"dynamic","packet":{"rows":16,"columns":16},"packets":64,"#,
             r#""forecast":{"probed":324,"simulated":6,"seconds":0.00025,"speed_up":1.9876,"fixed":1.9567},"#,
             r#""messages":null,"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,

@@ -143,7 +143,7 @@ fn packing(forecast: &Forecast) -> String {
         fixed,
     } = forecast;
     format!(
-        "speed-up {speed_up:.3} expected, best of {simulated} simulated after {} probes in {}; {fixed:.3} with {}",
+        "speed-up {speed_up:.3} expected, best of {simulated} simulated after {} probes in {}; {fixed:.3} in {} without a probe",
         thousands(*probed),
         duration(*seconds),
         packing::FIXED.1
@@ -156,12 +156,14 @@ fn messages(sent: &Messages) -> String {
         count,
         bytes,
         seconds,
+        hand_out,
     } = *sent;
     format!(
-        "{} packets in {} bytes came back from other ranks, {} each for the first one",
+        "{} packets in {} bytes came back from other ranks, {} or {} instructions each for the first one",
         thousands(count),
         thousands(bytes),
-        duration(seconds / count.max(1) as f64)
+        duration(seconds / count.max(1) as f64),
+        thousands(hand_out.round() as u64)
     )
 }
 
@@ -215,8 +217,8 @@ object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
-work          1,524,292 rays/s, 2 threads, 64 packets of 4 rows, dynamic schedule
-packing       speed-up 1.988 expected, best of 6 simulated after 324 probes in 250 us; 1.957 with 4 rows
+work          1,524,292 rays/s, 2 threads, 64 packets of 16 x 16 pixels, dynamic schedule
+packing       speed-up 1.988 expected, best of 6 simulated after 324 probes in 250 us; 1.957 in 16 x 16 pixels without a probe
 idle          500 us, 0 us
 
 "#]]
@@ -247,11 +249,12 @@ idle          500 us, 0 us
             count: 1000,
             bytes: 772_000,
             seconds: 0.004,
+            hand_out: 34_567.8,
         });
         let text = Summary(&stats).to_string();
         assert!(text.contains("2 ranks, 64 packets"), "{text}");
-        let told =
-            "messages      1,000 packets in 772,000 bytes came back from other ranks, 4 us each";
+        let told = "messages      1,000 packets in 772,000 bytes came back from other ranks, \
+            4 us or 34,568 instructions each";
         assert!(text.contains(told), "{text}");
     }
 

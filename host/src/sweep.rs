@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::packets::Shape;
-use crate::simulate::{Machine, Outcome, simulate};
+use crate::simulate::{Machine, Outcome, simulate_messages};
 use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_core::packet::Region;
@@ -42,6 +42,8 @@ pub struct SweepJob {
     pub machine: Machine,
     /// Instructions beside [`Machine::hand_out`] for each pixel of a packet that comes from others.
     pub per_pixel: f64,
+    /// Whether packets come in messages from the first processor ([`Deal::in_messages`]).
+    pub messages: bool,
     /// Whether to print JSON.
     pub json: bool,
     /// Where to write every combination as CSV.
@@ -97,7 +99,7 @@ pub fn run(job: &SweepJob, interrupt: &Interrupt) -> Result<(), Error> {
             let object = serde_json::json!({"scene": scene, "instructions": total, "runs": runs});
             writeln!(out, "{object}")
         }
-        false => writeln!(out, "{}", best(job, &runs)),
+        false => writeln!(out, "{}", table(job, &runs)),
     })
 }
 
@@ -110,24 +112,25 @@ fn sweep(
 ) -> Result<Vec<Run>, Error> {
     let mut runs = Vec::new();
     for &packet in &job.shapes {
-        interrupt.check()?;
-        let costs: Vec<f64> = packet.cut(region).map(|part| map.cost(&part)).collect();
+        let parts: Vec<Region> = packet.cut(region).collect();
+        let costs: Vec<f64> = parts.iter().map(|part| map.cost(part)).collect();
         let order = dearest_first(&costs);
-        let width = packet.columns.map_or(region.columns.end, NonZeroU32::get);
-        let pixels = f64::from(width) * f64::from(packet.rows.get());
-        let machine = Machine {
-            hand_out: job.machine.hand_out + job.per_pixel * pixels,
-            ..job.machine
-        };
+        let pixels = |part: &Region| part.columns.len() as f64 * part.rows.len() as f64;
         for &policy in &job.policies {
             for &processors in &job.processors {
-                let deal = Deal::new(policy, costs.len(), processors, order.clone());
+                interrupt.check()?;
+                let mut deal = Deal::new(policy, costs.len(), processors, order.clone());
+                if job.messages {
+                    deal = deal.in_messages();
+                }
                 runs.push(Run {
                     policy,
                     packet,
                     packets: costs.len(),
                     processors,
-                    outcome: simulate(&costs, &deal, &machine),
+                    outcome: simulate_messages(&costs, &deal, &job.machine, |packet| {
+                        job.per_pixel * pixels(&parts[packet])
+                    }),
                 });
             }
         }
@@ -169,8 +172,14 @@ fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
     csv.flush()
 }
 
+/// The run of the highest speed-up among those that fit; among equals the first.
+fn best(runs: &[Run], fits: impl Fn(&Run) -> bool) -> Option<&Run> {
+    let runs = runs.iter().filter(|run| fits(run)).rev();
+    runs.max_by(|a, b| f64::total_cmp(&a.outcome.speed_up, &b.outcome.speed_up))
+}
+
 /// For each number of processors the best speed-up of each policy, in strips and in tiles, and the packet.
-fn best(job: &SweepJob, runs: &[Run]) -> Table {
+fn table(job: &SweepJob, runs: &[Run]) -> Table {
     let mut table = Table::new();
     let names = job.policies.iter().map(|policy| policy.name());
     let heading = ["processors", "packets"].into_iter().chain(names);
@@ -180,17 +189,13 @@ fn best(job: &SweepJob, runs: &[Run]) -> Table {
     for &processors in &job.processors {
         for (kind, tiles) in [("strips", false), ("tiles", true)] {
             let of = |policy| {
-                let fits = |run: &&Run| {
+                best(runs, |run| {
                     (run.policy, run.processors) == (policy, processors)
                         && run.packet.columns.is_some() == tiles
-                };
-                let speed = |run: &&Run| run.outcome.speed_up;
-                // Among equals the first, which is the smallest.
-                let runs = runs.iter().filter(fits).rev();
-                runs.max_by(|a, b| speed(a).total_cmp(&speed(b)))
+                })
             };
             let cell = |policy| {
-                of(policy).map_or(String::new(), |run: &Run| {
+                of(policy).map_or(String::new(), |run| {
                     format!("{:.2} ({})", run.outcome.speed_up, run.packet)
                 })
             };

@@ -34,7 +34,6 @@ pub fn trace(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Traced, Error> {
-    scalar::reset_saturations();
     let begin = Instant::now();
     let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
     let build = begin.elapsed();
@@ -111,10 +110,9 @@ pub fn render(
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
     let (mut picture, region) = blank(engine, holds_intensities)?;
-    // Those of the probe are not the picture's.
-    let before = scalar::saturations();
     let packing = packing::choose(engine, &region, job, interrupt)?;
-    let probed = scalar::saturations().wrapping_sub(before);
+    // Those of the probe, or of other pictures, are not this one's.
+    let before = scalar::saturations();
     let packets = Packets::cut(&mut picture, &region, packing.shape);
     let count = packets.len();
     let threads = job.threads.min(at_least_one(count));
@@ -149,7 +147,7 @@ pub fn render(
         messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
-    let saturations = scalar::saturations().wrapping_sub(probed);
+    let saturations = scalar::saturations().wrapping_sub(before);
     Ok((picture, counters, work, u64::from(saturations)))
 }
 

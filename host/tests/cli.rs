@@ -321,12 +321,12 @@ mod schedule {
         .assert()
         .success()
         .stdout_eq(str![[r#"
-| processors | packets |[..]static |[..]dynamic |
-|[..]|
-| 1          | strips  |[..]1.00 (1 row) |[..]1.00 (1 row) |
-| 1          | tiles   |[..]1.00 (4 x 4 pixels) |[..]1.00 (4 x 4 pixels) |
-| 2          | strips  |[..] row[..]) |[..] row[..]) |
-| 2          | tiles   |[..] (4 x 4 pixels) |[..] (4 x 4 pixels) |
+| processors | packets |              static |             dynamic |
+|------------|---------|---------------------|---------------------|
+| 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
+| 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
+| 2          | strips  |        1.95 (1 row) |       1.99 (4 rows) |
+| 2          | tiles   | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
 
 "#]]);
     }

@@ -55,7 +55,7 @@ fn writes_tables_data_and_maps_that_do_not_depend_on_the_threads() {
 #[test]
 fn tells_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
     let folder = TempDir::new().unwrap();
-    let line = "stability power polygon --limits f32,i16f16 -o maps";
+    let line = "stability power polygon --limits f32,i16f16 -o maps --json a.json";
     let output = octray(folder.path(), line).output().unwrap();
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
@@ -64,6 +64,12 @@ fn tells_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
     assert_eq!(lines.len(), 2 + 2 + 2, "{text}");
     assert!(lines[0].contains("f32 holds to") && lines[0].contains("i16f16 holds to"));
     assert!(lines[4].contains("polygon") && lines[5].contains("thesis"));
+    // The last value of polygons is infinite, for which JSON has no number.
+    let json: Value =
+        serde_json::from_slice(&fs::read(folder.path().join("a.json")).unwrap()).unwrap();
+    let cells = json[1]["cells"].as_array().unwrap();
+    assert_eq!(cells.last().unwrap()["value"], "inf");
+    assert!(cells.iter().all(|cell| !cell["value"].is_null()));
     let queries = picture::read(&folder.path().join("maps/polygon-queries.png")).unwrap();
     // Points that are falsely in, and falsely out.
     for level in [[230, 85, 13], [8, 69, 148]] {

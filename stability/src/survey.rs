@@ -7,6 +7,7 @@ use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 /// What was measured at one value of a sweep, in one arithmetic, of one form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,9 +115,12 @@ pub fn survey(
             done.extend(mine);
         }
     };
-    std::thread::scope(|scope| {
-        for _ in 1..threads.get() {
-            scope.spawn(work);
+    thread::scope(|scope| {
+        for _ in 1..threads.get().min(jobs.len()) {
+            // Without more threads it takes longer.
+            if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
         }
         work();
     });
@@ -134,8 +138,8 @@ fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
             let about = method.about;
             let nothing = Cell {
                 tally: Tally::default(),
-                state: State::Holds,
-                cause: Cause::None,
+                state: State::Breaks,
+                cause: Cause::Refused,
                 admitted: false,
             };
             let count = about.forms.len() * ARITHMETICS.len() * about.values.len();
@@ -148,6 +152,7 @@ fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
     for ((m, a, v), admitted, tallies) in done {
         let outcome = &mut outcomes[m];
         let about = outcome.about;
+        assert_eq!(tallies.len(), about.forms.len(), "forms of {}", about.name);
         for (form, tally) in tallies.into_iter().enumerate() {
             let place = (form * ARITHMETICS.len() + a) * about.values.len() + v;
             let (state, cause) = about.bounds.judge(&tally);

@@ -99,6 +99,8 @@ impl State {
 pub enum Cause {
     /// Nothing: it holds.
     None,
+    /// There was no case: the arithmetic refuses the scene.
+    Refused,
     /// Wrong decisions, most of them for a hit.
     FalseHits,
     /// Wrong decisions, most of them for a miss.
@@ -161,8 +163,11 @@ impl Bounds {
         side: None,
     };
 
-    /// The worst state of any measure, and the first measure in that state.
+    /// The worst state of any measure, and the first measure in that state. What was never tried breaks.
     pub fn judge(&self, tally: &Tally) -> (State, Cause) {
+        if tally.cases == 0 {
+            return (State::Breaks, Cause::Refused);
+        }
         let wrong = if tally.false_hits > tally.false_misses {
             Cause::FalseHits
         } else {
@@ -215,8 +220,9 @@ mod tests {
     #[test]
     fn what_is_not_a_number_breaks_and_saturations_degrade() {
         let mut tally = Tally::default();
+        tally.decide(true, true);
         tally.err(f64::NAN);
-        assert_eq!(BOUNDS.judge(&tally).0, State::Breaks);
+        assert_eq!(BOUNDS.judge(&tally), (State::Breaks, Cause::Error));
         let saturated = Tally {
             cases: 1,
             saturations: 1,
@@ -230,8 +236,17 @@ mod tests {
 
     #[test]
     fn an_angle_without_a_bound_is_not_judged() {
-        let mut tally = Tally::default();
+        let mut tally = Tally {
+            cases: 1,
+            ..Tally::default()
+        };
         tally.turn(3.0);
         assert_eq!(BOUNDS.judge(&tally).0, State::Holds);
+    }
+
+    #[test]
+    fn without_a_case_nothing_holds() {
+        let nothing = BOUNDS.judge(&Tally::default());
+        assert_eq!(nothing, (State::Breaks, Cause::Refused));
     }
 }

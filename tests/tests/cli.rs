@@ -166,21 +166,24 @@ fn the_json_object_has_the_documented_fields() {
 #[test]
 fn the_chosen_packing_is_explained() {
     let folder = folder();
-    let chosen = stats(folder.path(), "--threads 2");
+    // In a large picture a probe takes little.
+    let chosen = stats(folder.path(), "--threads 2 --size 640x480");
     let forecast = |field: &str| chosen["forecast"][field].as_f64().unwrap();
     assert!(forecast("speed_up") > 1.0 && forecast("speed_up") <= 2.0);
     assert!(forecast("fixed") > 1.0 && forecast("fixed") <= 2.0);
     assert!(forecast("probed") > 0.0 && forecast("simulated") > 0.0);
-    let explained = done(folder.path(), "render a.scene --threads 2");
+    let explained = done(folder.path(), "render a.scene --threads 2 --size 640x480");
     assert!(
         explained.contains("\npacking       speed-up "),
         "{explained}"
     );
     let explicit = stats(
         folder.path(),
-        "--threads 2 --schedule static --packet-rows 4",
+        "--threads 2 --size 640x480 --schedule static --packet-rows 4",
     );
     assert_eq!(explicit["forecast"], Value::Null);
+    let small = stats(folder.path(), "--threads 2");
+    assert_eq!(small["forecast"], Value::Null);
     assert_eq!(explicit["hash"], chosen["hash"]);
 }
 
@@ -434,6 +437,19 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
     // Two policies, five packets, two numbers of processors.
     assert_eq!(runs.lines().count(), 1 + 2 * 5 * 2);
+    // Something is to be seen in 56 of 60 rows: a packet of 64 has no more, and costs no more to hand out.
+    let per_pixel = |flags: &str| {
+        let line = "schedule a.scene --processors 1 --packet-rows 64 --policy dynamic --json";
+        let told = done(folder.path(), &format!("{line} {flags}"));
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let run = told["runs"].as_array().unwrap().iter();
+        let mut strips = run.filter(|run| run["packet"]["columns"].is_null());
+        strips.next().unwrap()["time"].as_f64().unwrap()
+    };
+    let pixels = per_pixel("--per-pixel 100") - per_pixel("");
+    assert!((pixels / 100.0 - 80.0 * 56.0).abs() < 1e-3, "{pixels}");
+    // On one processor none of them comes in a message.
+    assert_eq!(per_pixel("--per-pixel 100 --messages"), per_pixel(""));
     let fewer = done(
         folder.path(),
         &format!("{line} --pixels-per-ray 4 --samples 1 --json"),

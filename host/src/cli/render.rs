@@ -64,12 +64,12 @@ pub struct RenderArgs {
     link: Link,
 
     /// How many threads trace [default: one for each core; on each rank of --mpi one]
-    #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>, help_heading = WORK)]
+    #[arg(long, value_name = "N", value_parser = value::threads, help_heading = WORK)]
     threads: Option<NonZeroUsize>,
     /// Which thread gets which packet [default: chosen for the scene, told in the statistics]
     #[arg(long, value_name = "HOW", value_enum, help_heading = WORK)]
     schedule: Option<Policy>,
-    /// Rows of a packet [default: chosen; 4 with --packet-columns]
+    /// Rows of a packet [default: chosen; 16 with --packet-columns]
     #[arg(long, value_name = "H", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     packet_rows: Option<NonZeroU32>,
     /// Columns of a packet [default: chosen; all with --packet-rows]
@@ -247,13 +247,14 @@ mod tests {
         assert_eq!(shape("a.scene"), None);
         assert_eq!(shape("a.scene --packet-rows 9").as_deref(), Some("9 rows"));
         let tiles = shape("a.scene --packet-columns 9");
-        assert_eq!(tiles.as_deref(), Some("9 x 4 pixels"));
+        assert_eq!(tiles.as_deref(), Some("9 x 16 pixels"));
     }
 
     #[test]
     fn values_out_of_range_are_bad_usage() {
         for flag in [
             "--threads 0",
+            "--threads 65537",
             "--packet-rows 0",
             "--packet-columns 0",
             "--samples 0",

@@ -40,7 +40,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "WxH", default_value = "64x48", value_parser = value::size)]
     chart_size: (u32, u32),
     /// Threads that look for limits [default: all cores]
-    #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>)]
+    #[arg(long, value_name = "N", value_parser = value::threads)]
     threads: Option<NonZeroUsize>,
 }
 

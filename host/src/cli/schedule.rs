@@ -57,6 +57,10 @@ pub struct ScheduleArgs {
     /// The same for each pixel of the packet, where pixels come back in messages
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     per_pixel: f64,
+    /// Every packet for others than the first processor comes in a message from it, whatever the policy, as with
+    /// 'octray render --mpi'
+    #[arg(long)]
+    messages: bool,
     /// By how much of itself each further busy processor slows all of them
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
@@ -90,10 +94,7 @@ impl ScheduleArgs {
         let even = self.pixels_per_ray == PixelsPerRay::Four;
         let fits = |side: &NonZeroU32| !even || side.get().is_multiple_of(2);
         let strips = self.packet_rows.0.into_iter().filter(fits);
-        let tiles = self.tiles.0.into_iter().filter(fits).map(|side| Shape {
-            rows: side,
-            columns: Some(side),
-        });
+        let tiles = self.tiles.0.into_iter().filter(fits).map(Shape::tile);
         let shapes: Vec<_> = strips.map(Shape::strip).chain(tiles).collect();
         if shapes.is_empty() {
             return usage(
@@ -132,6 +133,7 @@ impl ScheduleArgs {
                 serial: self.serial,
             },
             per_pixel: self.per_pixel,
+            messages: self.messages,
             json: self.json,
             csv: self.csv,
             chart: self.output,

@@ -40,7 +40,7 @@ pub struct StabilityArgs {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Threads that measure [default: all cores]
-    #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroUsize>)]
+    #[arg(long, value_name = "N", value_parser = value::threads)]
     threads: Option<NonZeroUsize>,
 }
 

@@ -3,7 +3,7 @@
 use crate::diff::Share;
 use crate::picture::Target;
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
 /// A picture file whose extension names its format.
@@ -28,7 +28,7 @@ pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
-/// The largest count of processors, and side of a packet: no picture has more rows.
+/// The largest count of processors or threads, and side of a packet: no picture has more rows.
 const MOST: u32 = 65_536;
 
 /// A whole number from 1 to [`MOST`].
@@ -37,6 +37,11 @@ pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
         .ok()
         .filter(|number: &NonZeroU32| number.get() <= MOST)
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
+}
+
+/// The same for a number of threads.
+pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    NonZeroUsize::try_from(count(text)?).map_err(|cause| cause.to_string())
 }
 
 /// Whole numbers, none of them 0.
@@ -142,6 +147,8 @@ mod tests {
     fn counts() {
         assert_eq!(count("1").map(NonZeroU32::get), Ok(1));
         assert_eq!(count("65536").map(NonZeroU32::get), Ok(65_536));
+        assert_eq!(threads("65536").map(NonZeroUsize::get), Ok(65_536));
+        assert!(threads("18446744073709551615").is_err());
         for wrong in ["", "0", "65537", "4294967296", "-1", "1.5"] {
             assert!(count(wrong).is_err(), "{wrong}");
         }

@@ -1,6 +1,7 @@
 //! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, failed, pause};
+use crate::cost;
 use crate::deal::Deal;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
@@ -67,7 +68,6 @@ impl<'a> Leader<'a> {
         progress: &Progress,
         interrupt: &Interrupt,
     ) -> Result<Traced, Error> {
-        scalar::reset_saturations();
         let begin = Instant::now();
         let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
         let build = begin.elapsed();
@@ -75,13 +75,11 @@ impl<'a> Leader<'a> {
         let (mut picture, region) = trace::blank(&*engine, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
-        let before = scalar::saturations();
         let work = WorkOptions {
             threads,
             ..job.work
         };
         let packing = packing::choose(&*engine, &region, &work, interrupt)?;
-        let probed = scalar::saturations().wrapping_sub(before);
         let plan = Plan {
             scene: Cow::Borrowed(scene),
             arith: job.arith,
@@ -92,10 +90,12 @@ impl<'a> Leader<'a> {
         };
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
+        // As with threads, what comes before the dealing is neither idle nor the picture's.
+        let (dealing, before) = (Instant::now(), scalar::saturations());
         let packets = Packets::cut(&mut picture, &region, packing.shape);
         let count = packets.len();
         progress.start(count);
-        let (counters, busy, messages, tallies) = {
+        let (counters, busy, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
                 deal: Deal::new(packing.policy, count, threads, packing.order),
@@ -108,7 +108,8 @@ impl<'a> Leader<'a> {
             (counters, busy, desk.messages, desk.tallies)
         };
         self.state = State::Done;
-        let own = scalar::saturations().wrapping_sub(probed);
+        let dealing = dealing.elapsed().as_secs_f64();
+        let own = scalar::saturations().wrapping_sub(before);
         let own = Tally::new(&counters, own, busy);
         let (mut counters, mut saturations) = (Counters::default(), 0);
         let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
@@ -116,8 +117,13 @@ impl<'a> Leader<'a> {
             counters.add(&tally.counters());
             saturations += u64::from(tally.saturations);
         }
+        let busy: f64 = tallies.iter().map(|tally| tally.busy).sum();
+        if busy > 0.0 && messages.count > 0 {
+            let share = messages.seconds / messages.count as f64 / busy;
+            messages.hand_out = share * cost::cost(&counters);
+        }
         let times = (build, begin.elapsed());
-        let idle = |tally: &Tally| (times.1.as_secs_f64() - tally.busy).max(0.0);
+        let idle = |tally: &Tally| (dealing - tally.busy).max(0.0);
         let work = Work {
             threads: ranks,
             schedule: packing.policy,

@@ -25,13 +25,13 @@ pub(super) fn serve(world: &SimpleCommunicator, interrupt: &Interrupt) -> Result
         return Ok(());
     };
     drop(bytes);
-    scalar::reset_saturations();
     let engine = engine::build(&plan.scene, plan.arith, &plan.tree, &plan.view)?;
     let region = engine.built().region();
     let parts: Vec<_> = plan.shape.cut(&region).collect();
     let leader = world.process_at_rank(0);
     let mut worker = engine.worker();
     let mut busy = Duration::ZERO;
+    let before = scalar::saturations();
     let nothing: [u8; 0] = [];
     for _ in 0..IN_HAND {
         leader.send_with_tag(&nothing[..], REQUEST);
@@ -50,7 +50,8 @@ pub(super) fn serve(world: &SimpleCommunicator, interrupt: &Interrupt) -> Result
         busy += begin.elapsed();
         leader.send_with_tag(&message[..], RESULT);
     }
-    let tally = Tally::new(worker.counters(), scalar::saturations(), busy);
+    let saturations = scalar::saturations().wrapping_sub(before);
+    let tally = Tally::new(worker.counters(), saturations, busy);
     let bytes = postcard::to_stdvec(&tally).map_err(|cause| failed(cause.to_string()))?;
     leader.send_with_tag(&bytes[..], TALLY);
     Ok(())

@@ -4,7 +4,7 @@ use octray_stability::method::About;
 use octray_stability::number::ARITHMETICS;
 use octray_stability::survey::{Outcome, Survey};
 use octray_stability::tally::{Cause, State, Tally};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
 /// One JSON object: each method with what it is about and its cells.
@@ -44,6 +44,7 @@ struct Row {
     method: &'static str,
     form: &'static str,
     arithmetic: &'static str,
+    #[serde(serialize_with = "swept")]
     value: f64,
     state: State,
     cause: Cause,
@@ -55,6 +56,14 @@ struct Row {
     saturations: u32,
     error: f64,
     angle: f64,
+}
+
+/// A value swept; `inf` as text where it is infinite, for which JSON has no number.
+fn swept<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    match value.is_finite() {
+        true => serializer.serialize_f64(*value),
+        false => serializer.collect_str(value),
+    }
 }
 
 fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {

@@ -124,6 +124,10 @@ fn paint_cell<B: DrawingBackend>(area: &Area<'_, B>, cell: &Cell, (x, y): (i32, 
             area.draw(&Polygon::new([near(-5, -4), near(5, -4), near(0, 5)], ink))
         }
         Cause::Side => area.draw(&Circle::new(middle, 5, ink)),
+        Cause::Refused => area.draw(&PathElement::new(
+            [near(-5, 0), near(5, 0)],
+            ink.stroke_width(2),
+        )),
         Cause::Error => {
             area.draw(&PathElement::new(
                 [near(-5, -5), near(5, 5)],

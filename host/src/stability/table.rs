@@ -51,7 +51,7 @@ fn bounds(about: &About) -> (String, String) {
     let side = |x: f64| format!("{} % on the wrong side", x * 100.0);
     let error = |x: f64| format!("an error of {x} {}", about.unit);
     let angle = |x: f64| format!("an angle of {x} rad");
-    let told = |pick: fn(&Bound) -> f64| {
+    let told = |pick: fn(&Bound) -> f64, saturations| {
         let each = [
             bounds.wrong.map(|b| percent(pick(&b))),
             bounds.side.map(|b| side(pick(&b))),
@@ -59,9 +59,12 @@ fn bounds(about: &About) -> (String, String) {
             bounds.angle.map(|b| angle(pick(&b))),
         ];
         let each: Vec<String> = each.into_iter().flatten().collect();
-        format!("at most {}", each.join(", "))
+        format!("at most {}, {saturations}", each.join(", "))
     };
-    (told(|b| b.holds), told(|b| b.degrades))
+    (
+        told(|b| b.holds, "no saturation"),
+        told(|b| b.degrades, "any saturations"),
+    )
 }
 
 /// The values around the gentlest one where the state is no worse.

@@ -13,6 +13,8 @@ use std::num::NonZeroUsize;
 const CELL: (i32, i32) = (40, 16);
 const LEFT: i32 = 120;
 const MARGIN: i32 = 16;
+/// From the top of a cell to the top of its text, so that digits are in its middle.
+const DROP: i32 = 4;
 const HEAD: i32 = 56;
 const TITLE: i32 = 26;
 const FOOT: i32 = 42;
@@ -53,6 +55,12 @@ impl<'a> Chart<'a> {
         let key = (policy, shape, processors);
         let mut runs = self.runs.iter();
         runs.find(|run| (run.policy, run.packet, run.processors) == key)
+    }
+
+    fn best(&self, policy: Policy, processors: NonZeroUsize) -> Option<&'a Run> {
+        super::best(self.runs, |run| {
+            (run.policy, run.processors) == (policy, processors)
+        })
     }
 
     /// The width and height of a heat map with what is around it.
@@ -105,7 +113,13 @@ impl Chart<'_> {
         write(area, policy.name(), (left, top - 20), 15, HPos::Left)?;
         for (row, shape) in (0..).zip(self.shapes) {
             let y = top + row * CELL.1;
-            write(area, &shape.to_string(), (left - 6, y + 1), 13, HPos::Right)?;
+            write(
+                area,
+                &shape.to_string(),
+                (left - 6, y + DROP),
+                13,
+                HPos::Right,
+            )?;
         }
         let floor = top + self.shapes.len() as i32 * CELL.1;
         for (column, processors) in (0..).zip(self.processors) {
@@ -113,7 +127,7 @@ impl Chart<'_> {
             let middle = x + CELL.0 / 2;
             let label = processors.to_string();
             write(area, &label, (middle, floor + 3), 13, HPos::Center)?;
-            let best = best(self.runs, policy, *processors);
+            let best = self.best(policy, *processors);
             for (row, shape) in (0..).zip(self.shapes) {
                 let Some(run) = self.run(policy, *shape, *processors) else {
                     continue;
@@ -127,7 +141,7 @@ impl Chart<'_> {
                 let text = format!("{:.0}", 100.0 * share);
                 // Viridis is light in its upper half.
                 let ink = if share > 0.55 { BLACK_LINE } else { WHITE };
-                number(area, &text, (middle, y + 1), ink)?;
+                number(area, &text, (middle, y + DROP), ink)?;
                 if best.is_some_and(|best| best.packet == *shape) {
                     let inner = [(x + 1, y + 1), (x + CELL.0 - 2, y + CELL.1 - 2)];
                     area.draw(&Rectangle::new(corners, BLACK_LINE))?;
@@ -169,7 +183,7 @@ impl Chart<'_> {
             let points: Vec<_> = (0..)
                 .zip(self.processors)
                 .filter_map(|(column, processors)| {
-                    let best = best(self.runs, *policy, *processors)?;
+                    let best = self.best(*policy, *processors)?;
                     let share = best.outcome.efficiency.clamp(0.0, 1.0);
                     let y = floor - (f64::from(CURVES) * share).round() as i32;
                     Some((x(column), y))
@@ -199,14 +213,6 @@ fn number<B: DrawingBackend>(
     let style = ("sans-serif", 13).into_text_style(area).color(&ink);
     let style = style.pos(Pos::new(HPos::Center, VPos::Top));
     area.draw(&Text::new(text.to_owned(), place, style))
-}
-
-/// The run of the highest speed-up; among equals the first.
-pub(super) fn best(runs: &[Run], policy: Policy, processors: NonZeroUsize) -> Option<&Run> {
-    let fits = |run: &&Run| (run.policy, run.processors) == (policy, processors);
-    let speed = |run: &Run| run.outcome.speed_up;
-    let runs = runs.iter().filter(fits).rev();
-    runs.max_by(|a, b| speed(a).total_cmp(&speed(b)))
 }
 
 #[cfg(test)]
@@ -248,7 +254,7 @@ mod tests {
             assert!(svg.contains(&format!("\n{text}\n")), "{text}");
         }
         assert_eq!(svg, canvas::svg(&chart).unwrap());
-        let best = best(&runs, Policy::Static, processors[0]).unwrap();
+        let best = chart.best(Policy::Static, processors[0]).unwrap();
         assert_eq!(best.packet, shapes[1]);
     }
 }

@@ -103,11 +103,7 @@ impl<'a> Lab<'a> {
             &self.view(&trial),
         )?;
         let map = CostMap::probe(&*engine, NonZeroU32::MIN, self.interrupt)?;
-        let region = Region {
-            columns: 0..engine.built().size.0,
-            rows: engine.built().active.rows.clone(),
-        };
-        Ok((map, region))
+        Ok((map, engine.built().region()))
     }
 
     /// The defaults of `octray render`.

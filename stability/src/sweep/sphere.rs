@@ -11,9 +11,12 @@ use octray_core::ray::Ray;
 use octray_core::shape::{self, Kind};
 use octray_core::vec3::Vec3;
 
-/// Rays that pass a sphere's centre at ½ … 2 radii, from a distance of 2 to 10⁷ radii.
+/// Rays that pass a sphere's centre at 0 to 2 radii (see `AIMS`), from a distance of 2 to 10⁷ radii.
 #[derive(Debug)]
 pub struct Sphere;
+
+/// Radii between the rays and the centre.
+const AIMS: [f64; 8] = [0.0, 0.3, 0.5, 0.8, 0.9, 1.1, 1.3, 2.0];
 
 impl Sweep for Sphere {
     const ABOUT: About = About {
@@ -54,7 +57,7 @@ impl Sweep for Sphere {
         let mut random = Random::new(1);
         let distance = span::<S>() / 2.0;
         let radius = S::from_f64(distance / value);
-        for aim in [0.0, 0.3, 0.5, 0.8, 0.9, 1.1, 1.3, 2.0].repeat(6) {
+        for aim in AIMS.repeat(6) {
             let towards = random.direction();
             let aside = random.across(towards);
             let direction = number::direction::<S>(towards);
