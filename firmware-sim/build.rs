@@ -9,11 +9,12 @@
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
+//! | `OCTRAY_CUT_OFF` | the weight, from 0 to 1, below which a ray is not traced | 1/512 |
 //! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_core::octree::{self, PACKED_DEPTH};
-use octray_scenes::bake::{CUT_OFF, Options, Tree, bake};
+use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::{Plan, PlanError};
 use octray_scenes::quantise::View;
@@ -122,11 +123,18 @@ fn baked() -> Result<String, String> {
             samples: 1,
             max_depth: number("OCTRAY_MAX_DEPTH", "8")?,
         },
-        cut_off: CUT_OFF,
+        cut_off: cut_off()?,
         tree,
         rays: None,
     };
     baked_as(&scene, &arith, &options)
+}
+
+fn cut_off() -> Result<f64, String> {
+    let text = variable("OCTRAY_CUT_OFF", "0.001953125");
+    (text.parse().ok())
+        .filter(|weight| (0.0..=1.0).contains(weight))
+        .ok_or_else(|| format!("OCTRAY_CUT_OFF={text}: expected a number from 0 to 1"))
 }
 
 fn baked_as(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<String, String> {

@@ -166,6 +166,7 @@ fn job(scenes: Vec<PathBuf>, tree: TreeKind, boards: &[&'static Board]) -> Measu
             size: (64, 48),
             max_depth: 8,
             pixels_per_ray: PixelsPerRay::One,
+            cut_off: 1.0 / 512.0,
         },
         build: BuildOptions {
             tree,

@@ -9,7 +9,6 @@ use crate::progress::Progress;
 use crate::render::Traced;
 use crate::trace::trace;
 use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
-use octray_scenes::bake::CUT_OFF;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 
@@ -22,6 +21,8 @@ pub struct View {
     pub max_depth: u32,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
+    /// The weight below which no ray is traced, 0 to 1.
+    pub cut_off: f64,
 }
 
 /// The host's picture.
@@ -66,7 +67,7 @@ pub fn render(
         pixels_per_ray: view.pixels_per_ray,
         samples: 1,
         max_depth: view.max_depth,
-        cut_off: CUT_OFF,
+        cut_off: view.cut_off,
     };
     let work = WorkOptions {
         threads: NonZeroUsize::MIN,
