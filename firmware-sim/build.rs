@@ -9,15 +9,16 @@
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
+//! | `OCTRAY_CUT_OFF` | the weight, from 0 to 1, below which a ray is not traced | 1/512 |
 //! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
-//! | `OCTRAY_COUNTS` | whether rays, steps and tests are counted: 0 or 1 | 0 |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
-use octray_core::octree;
+use octray_core::octree::{self, PACKED_DEPTH};
 use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::{Plan, PlanError};
 use octray_scenes::quantise::View;
+use octray_scenes::target::Test;
 use std::path::Path;
 use std::{env, fs, process};
 
@@ -43,14 +44,11 @@ fn number(name: &str, default: &str) -> Result<u32, String> {
 fn run() -> Result<(), String> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=link");
-    println!("cargo::rustc-check-cfg=cfg(octray_counts, octray_device_tree)");
+    println!("cargo::rustc-check-cfg=cfg(octray_device_tree)");
     let out = env::var("OUT_DIR").map_err(|error| error.to_string())?;
     let source = baked()?;
     let written = fs::write(Path::new(&out).join("baked.rs"), source);
     written.map_err(|error| format!("cannot write the baked scene: {error}"))?;
-    if number("OCTRAY_COUNTS", "0")? != 0 {
-        println!("cargo::rustc-cfg=octray_counts");
-    }
     let board = variable("OCTRAY_BOARD", "virt");
     let arch = env::var("CARGO_CFG_TARGET_ARCH").unwrap_or_default();
     let bare = env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none");
@@ -92,12 +90,18 @@ fn baked() -> Result<String, String> {
         .and_then(|(w, h)| Some((w.parse::<u16>().ok()?, h.parse::<u16>().ok()?)))
         .filter(|(w, h)| *w > 0 && *h > 0)
         .ok_or_else(|| format!("OCTRAY_SIZE={size}: expected columns x rows such as 160x120"))?;
-    let test = Test::of(&variable("OCTRAY_ARITH", "auto"));
-    let options = octree::Options {
-        depth: 24,
-        leaf_size: number("OCTRAY_LEAF_SIZE", test.leaf_size())?,
-    };
+    let pixels_per_ray = number("OCTRAY_PIXELS_PER_RAY", "1")?;
+    if ![1, 4].contains(&pixels_per_ray) {
+        return Err(format!(
+            "OCTRAY_PIXELS_PER_RAY={pixels_per_ray}: expected 1 or 4"
+        ));
+    }
     let arith = variable("OCTRAY_ARITH", "auto");
+    let test = Test::of(&arith, &env::var("TARGET").unwrap_or_default());
+    let options = octree::Options {
+        depth: PACKED_DEPTH,
+        leaf_size: number("OCTRAY_LEAF_SIZE", &test.leaf_size().to_string())?,
+    };
     let tree = match &*variable("OCTRAY_TREE", "auto") {
         "auto" if scene.objects.len() < test.least_objects() => Tree::None,
         "packed" | "auto" => Tree::Packed(options),
@@ -115,15 +119,22 @@ fn baked() -> Result<String, String> {
         name: &name,
         view: View {
             size: Some((width.into(), height.into())),
-            pixels_per_ray: number("OCTRAY_PIXELS_PER_RAY", "1")?,
+            pixels_per_ray,
             samples: 1,
             max_depth: number("OCTRAY_MAX_DEPTH", "8")?,
         },
-        cut_off: 1.0 / 512.0,
+        cut_off: cut_off()?,
         tree,
         rays: None,
     };
     baked_as(&scene, &arith, &options)
+}
+
+fn cut_off() -> Result<f64, String> {
+    let text = variable("OCTRAY_CUT_OFF", "0.001953125");
+    (text.parse().ok())
+        .filter(|weight| (0.0..=1.0).contains(weight))
+        .ok_or_else(|| format!("OCTRAY_CUT_OFF={text}: expected a number from 0 to 1"))
 }
 
 fn baked_as(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<String, String> {
@@ -138,45 +149,4 @@ fn read_plan(path: &Path) -> Result<Plan, String> {
     let text = fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
     text.parse()
         .map_err(|error: PlanError| at(error.to_string()))
-}
-
-/// What it takes to test a ray against an object, compared with a box of the tree, which is tested in
-/// short integers everywhere.
-enum Test {
-    /// A few products.
-    Cheap,
-    /// Long products on a core that has none.
-    Dear,
-    /// Emulated floats.
-    Dearest,
-}
-
-impl Test {
-    fn of(arith: &str) -> Self {
-        let target = env::var("TARGET").unwrap_or_default();
-        let has_floats = target.ends_with("hf") || target.starts_with("riscv32imafc");
-        let is_float = arith.starts_with('f') || arith.starts_with("approx");
-        match (is_float, has_floats) {
-            (true, false) => Self::Dearest,
-            _ if target.starts_with("thumbv6m") => Self::Dear,
-            _ => Self::Cheap,
-        }
-    }
-
-    /// From how many objects walking a tree costs less than trying every one. Measured.
-    fn least_objects(&self) -> usize {
-        match self {
-            Self::Cheap => 8,
-            Self::Dear => 5,
-            Self::Dearest => 3,
-        }
-    }
-
-    /// Objects up to which a node of the tree is best not divided. Measured.
-    fn leaf_size(&self) -> &'static str {
-        match self {
-            Self::Cheap => "2",
-            Self::Dear | Self::Dearest => "1",
-        }
-    }
 }

@@ -21,7 +21,7 @@ mod touch;
 pub use build::{BuildError, Options, Summary};
 pub use list::List;
 pub use octants::{Link, Octant, Octants, Variant};
-pub use packed::{PACKED_STACK, Packed, PackedStack};
+pub use packed::{PACKED_DEPTH, PACKED_STACK, Packed, PackedStack};
 pub use plane::{Faces, Plane, Slope};
 pub use tight::{Node, Tight, TightMemory};
 

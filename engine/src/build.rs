@@ -4,7 +4,7 @@ use crate::grown::Grown;
 use crate::options::{Arith, Link, Tree, TreeOptions, ViewOptions};
 use crate::ready::{Ready, intensity, level};
 use crate::{Built, Engine, Octree};
-use octray_core::octree::{self, Options, Summary, Variant};
+use octray_core::octree::{self, Options, PACKED_DEPTH, Summary, Variant};
 use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{self, Overflow, Prepared, View};
@@ -20,8 +20,8 @@ pub enum Error {
     /// More objects than a packed tree can link.
     #[error("a packed tree holds at most 32767 objects")]
     Objects,
-    /// A format that no small target has.
-    #[error("no small target has {0}")]
+    /// There is no arithmetic of this name.
+    #[error("no arithmetic is called {0}")]
     Format(String),
 }
 
@@ -35,31 +35,26 @@ pub fn build(
     tree: &TreeOptions,
     view: &ViewOptions,
 ) -> Result<Box<dyn Engine>, Error> {
-    let plan = Plan { scene, tree, view };
+    let request = Request { scene, tree, view };
     match arith {
-        Arith::F64 => plan.build::<f64>(),
-        Arith::F32 => plan.build::<f32>(),
-        Arith::Approx0 => plan.build::<Approx<0>>(),
-        Arith::Approx1 => plan.build::<Approx<1>>(),
-        Arith::Approx2 => plan.build::<Approx<2>>(),
-        Arith::I24F8 => plan.build::<Fixed<8, true>>(),
-        Arith::I20F12 => plan.build::<Fixed<12, true>>(),
-        Arith::I16F16 => plan.build::<Fixed<16, true>>(),
-        Arith::I12F20 => plan.build::<Fixed<20, true>>(),
-        Arith::I8F24 => plan.build::<Fixed<24, true>>(),
-        Arith::I4F28 => plan.build::<Fixed<28, true>>(),
-        Arith::I32F32 => plan.build::<Fixed64>(),
-        Arith::Auto if plan.fits::<Fixed<28, true>>() => plan.build::<Fixed<28, true>>(),
-        Arith::Auto if plan.fits::<Fixed<24, true>>() => plan.build::<Fixed<24, true>>(),
-        Arith::Auto if plan.fits::<Fixed<20, true>>() => plan.build::<Fixed<20, true>>(),
-        Arith::Auto if plan.fits::<Fixed<16, true>>() => plan.build::<Fixed<16, true>>(),
-        Arith::Auto if plan.fits::<Fixed<12, true>>() => plan.build::<Fixed<12, true>>(),
-        Arith::Auto => plan.build::<Fixed<8, true>>(),
+        Arith::F64 => request.build::<f64>(),
+        Arith::F32 => request.build::<f32>(),
+        Arith::Approx0 => request.build::<Approx<0>>(),
+        Arith::Approx1 => request.build::<Approx<1>>(),
+        Arith::Approx2 => request.build::<Approx<2>>(),
+        Arith::I24F8 => request.build::<Fixed<8, true>>(),
+        Arith::I20F12 => request.build::<Fixed<12, true>>(),
+        Arith::I16F16 => request.build::<Fixed<16, true>>(),
+        Arith::I12F20 => request.build::<Fixed<20, true>>(),
+        Arith::I8F24 => request.build::<Fixed<24, true>>(),
+        Arith::I4F28 => request.build::<Fixed<28, true>>(),
+        Arith::I32F32 => request.build::<Fixed64>(),
+        Arith::Auto => build(scene, Arith::finest(scene, view.max_depth), tree, view),
     }
 }
 
 /// Makes a scene ready as small targets have it, with a packed tree or none: in any format that
-/// [`octray_scenes::bake`] knows by name but approximate and 64-bit fixed ones.
+/// [`octray_scenes::bake`] knows by name.
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the format or the tree,
@@ -77,38 +72,37 @@ pub fn build_small(
         arena: None,
         link: Link::Shape,
     };
-    let plan = Plan { scene, tree, view };
+    let request = Request { scene, tree, view };
     match format {
-        "f64" => plan.small::<f64>(),
-        "f32" => plan.small::<f32>(),
-        "i24f8" => plan.small::<Fixed<8, true>>(),
-        "i22f10" => plan.small::<Fixed<10, true>>(),
-        "i20f12" => plan.small::<Fixed<12, true>>(),
-        "i18f14" => plan.small::<Fixed<14, true>>(),
-        "i16f16" => plan.small::<Fixed<16, true>>(),
-        "i14f18" => plan.small::<Fixed<18, true>>(),
-        "i12f20" => plan.small::<Fixed<20, true>>(),
-        "i10f22" => plan.small::<Fixed<22, true>>(),
-        "i8f24" => plan.small::<Fixed<24, true>>(),
-        "i6f26" => plan.small::<Fixed<26, true>>(),
-        "i4f28" => plan.small::<Fixed<28, true>>(),
+        "f64" => request.small::<f64>(),
+        "f32" => request.small::<f32>(),
+        "approx0" => request.small::<Approx<0>>(),
+        "approx1" => request.small::<Approx<1>>(),
+        "approx2" => request.small::<Approx<2>>(),
+        "i24f8" => request.small::<Fixed<8, true>>(),
+        "i22f10" => request.small::<Fixed<10, true>>(),
+        "i20f12" => request.small::<Fixed<12, true>>(),
+        "i18f14" => request.small::<Fixed<14, true>>(),
+        "i16f16" => request.small::<Fixed<16, true>>(),
+        "i14f18" => request.small::<Fixed<18, true>>(),
+        "i12f20" => request.small::<Fixed<20, true>>(),
+        "i10f22" => request.small::<Fixed<22, true>>(),
+        "i8f24" => request.small::<Fixed<24, true>>(),
+        "i6f26" => request.small::<Fixed<26, true>>(),
+        "i4f28" => request.small::<Fixed<28, true>>(),
+        "i32f32" => request.small::<Fixed64>(),
         other => Err(Error::Format(other.into())),
     }
 }
 
 /// What is to be made ready, in whatever arithmetic.
-struct Plan<'a> {
+struct Request<'a> {
     scene: &'a Scene,
     tree: &'a TreeOptions,
     view: &'a ViewOptions,
 }
 
-impl Plan<'_> {
-    /// Whether the scene cannot overflow format `S`.
-    fn fits<S: Quantize>(&self) -> bool {
-        quantise::limits::<S>(self.scene, self.view.max_depth).is_ok()
-    }
-
+impl Request<'_> {
     /// The view as quantisation wants it.
     fn quantised_view(&self) -> View {
         View {
@@ -145,8 +139,9 @@ impl Plan<'_> {
     fn small<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
         let mut prepared = self.prepare::<S>()?;
         if self.tree.kind == Tree::Packed {
-            let (tree, summary) = PackedTree::build(&mut prepared.scene, &self.growth(24))
-                .map_err(|_| Error::Objects)?;
+            let (tree, summary) =
+                PackedTree::build(&mut prepared.scene, &self.growth(PACKED_DEPTH))
+                    .map_err(|_| Error::Objects)?;
             return Ok(self.ready(prepared, tree, summary));
         }
         let all = every_object(&prepared.scene);

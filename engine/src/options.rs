@@ -1,6 +1,8 @@
 //! What there is to choose when a scene is made ready: arithmetic, octree, and what to trace.
 
 use clap::ValueEnum;
+use octray_scenes::model::Scene;
+use octray_scenes::quantise;
 use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroUsize};
 
@@ -67,7 +69,7 @@ pub enum Arith {
     I4F28,
     /// 64-bit fixed point with 32 fraction bits.
     I32F32,
-    /// The 32-bit fixed point with the most fraction bits that the scene cannot overflow.
+    /// The finest 32-bit fixed point of those above that the scene cannot overflow.
     Auto,
 }
 
@@ -111,6 +113,14 @@ pub enum PixelsPerRay {
 }
 
 impl Arith {
+    /// What `auto` stands for; see [`quantise::finest`].
+    pub fn finest(scene: &Scene, max_depth: u32) -> Self {
+        let name = quantise::finest(scene, max_depth);
+        let mut all = Self::value_variants().iter().copied();
+        all.find(|arith| arith.name() == name)
+            .unwrap_or(Self::I24F8)
+    }
+
     /// Its name on the command line and in statistics.
     pub fn name(self) -> &'static str {
         match self {
@@ -188,6 +198,21 @@ mod tests {
             assert_eq!(on_command_line.get_name(), name(*value));
             let in_json = serde_json::to_value(value).unwrap();
             assert_eq!(in_json, name(*value));
+        }
+    }
+
+    #[test]
+    fn what_is_finest_is_an_arithmetic() {
+        for (light, finest) in [
+            ("1", Arith::I4F28),
+            ("100", Arith::I8F24),
+            ("1e3", Arith::I12F20),
+            ("1e4", Arith::I16F16),
+            ("1e5", Arith::I20F12),
+            ("1e6", Arith::I24F8),
+        ] {
+            let scene = octray_scenes::parse(&format!("v 0 0 9 l 0 0 9 {light}")).unwrap();
+            assert_eq!(Arith::finest(&scene, 8), finest, "{light}");
         }
     }
 

@@ -20,22 +20,13 @@ use marks::{octray_pause, octray_resume};
 use octray_core::octree::Accelerator;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_firmware_sim::hash::HashPanel;
-use octray_firmware_sim::render;
+use octray_firmware_sim::render::{ROWS, render};
 use semihosting::process::exit;
-
-/// Rows of the strip buffer.
-const ROWS: usize = 4;
-
-#[cfg(octray_counts)]
-type Counts = octray_firmware_sim::tally::Tally;
-#[cfg(not(octray_counts))]
-type Counts = ();
 
 /// Renders, tells, exits.
 fn run() -> ! {
     stack::paint();
-    let mut counts = Counts::default();
-    let hash = frame(&mut counts);
+    let hash = frame();
     let deepest = stack::deepest();
     tell::text("scene ");
     tell::text(crate::baked::NAME);
@@ -43,7 +34,6 @@ fn run() -> ! {
     tell::text(crate::baked::ARITH);
     tell::text("\nhash ");
     tell::hexadecimal(hash);
-    tell_counts(&counts);
     tell::number("stack", deepest.unwrap_or(0));
     tell::text("\n");
     exit(if deepest.is_some() { 0 } else { 103 })
@@ -51,13 +41,13 @@ fn run() -> ! {
 
 /// Renders the picture with the tree that was baked; its hash.
 #[cfg(not(octray_device_tree))]
-fn frame(counts: &mut Counts) -> u64 {
-    trace(&crate::baked::TREE, counts)
+fn frame() -> u64 {
+    trace(&crate::baked::TREE)
 }
 
 /// Builds the tree in its own memory and renders the picture; its hash. 0 if the tree has no room.
 #[cfg(octray_device_tree)]
-fn frame(counts: &mut Counts) -> u64 {
+fn frame() -> u64 {
     use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
     use octray_core::{octree::Packed, ray::Bounds, shape::ObjectRef};
 
@@ -71,12 +61,12 @@ fn frame(counts: &mut Counts) -> u64 {
             .ok()
             .map(|(tree, _)| tree)
     }
-    build(&mut words, &mut links).map_or(0, |tree| trace(&tree, counts))
+    build(&mut words, &mut links).map_or(0, |tree| trace(&tree))
 }
 
 /// Renders the picture; its hash.
 #[inline(never)]
-fn trace<A: Accelerator<S, NEEDS>>(tree: &A, counts: &mut Counts) -> u64 {
+fn trace<A: Accelerator<S, NEEDS>>(tree: &A) -> u64 {
     let tracer = Tracer {
         scene: &SCENE,
         accelerator: tree,
@@ -90,7 +80,7 @@ fn trace<A: Accelerator<S, NEEDS>>(tree: &A, counts: &mut Counts) -> u64 {
         stack: &mut A::Stack::default(),
         blockers: &mut blockers,
     };
-    let mut strip = [[0; 3]; WIDTH as usize * ROWS];
+    let mut strip = [[0; 3]; WIDTH as usize * ROWS as usize];
     let mut panel = Panel(HashPanel::new(WIDTH, HEIGHT));
     octray_resume();
     let Ok(()) = render(
@@ -99,27 +89,11 @@ fn trace<A: Accelerator<S, NEEDS>>(tree: &A, counts: &mut Counts) -> u64 {
         &tracer,
         &mut workspace,
         &mut strip,
-        counts,
+        &mut (),
     );
     octray_pause();
     panel.0.hash()
 }
-
-#[cfg(octray_counts)]
-fn tell_counts(counts: &Counts) {
-    let [primary, shadow, reflected, transmitted] = counts.rays;
-    tell::number("primary", primary);
-    tell::number("shadow", shadow);
-    tell::number("reflected", reflected);
-    tell::number("transmitted", transmitted);
-    tell::number("blocked", counts.blocked);
-    tell::number("steps", counts.steps);
-    tell::number("tests", counts.tests);
-    tell::number("waiting", counts.deepest);
-}
-
-#[cfg(not(octray_counts))]
-fn tell_counts(&(): &Counts) {}
 
 /// The panel, with whatever it does left out of what is measured.
 struct Panel(HashPanel);

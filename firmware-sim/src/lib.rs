@@ -5,7 +5,7 @@
 //! | --- | --- |
 //! | [`mod@render`] | from packets of rays to strips of pixels to a display |
 //! | [`dither`] | a display of few colours that shows the mean of more |
-//! | [`tally`] | counts of rays, steps and tests in 32 bits |
+//! | [`tally`] | counts of steps and tests in 32 bits |
 //! | [`hash`] | a display that keeps nothing but the picture's hash |
 //!
 //! The binary `octray-firmware` renders the scene that the build script has baked on Cortex-M and

@@ -22,16 +22,13 @@ use octray_engine as engine;
 use octray_engine::options::{Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_firmware_sim::dither::{Dithered, PanelColor};
-use octray_firmware_sim::render::Strips;
+use octray_firmware_sim::render::{ROWS, Strips};
+use octray_scenes::bake::CUT_OFF;
 use screen::Screen;
 use std::time::Instant;
 
-/// Rows of a strip, as on the boards.
-const ROWS: u32 = 4;
-
-/// Bounces and least weight, as the firmware has them baked.
+/// Bounces, as the firmware has them baked.
 const MAX_DEPTH: u32 = 8;
-const CUT_OFF: f64 = 1.0 / 512.0;
 
 /// Draws the scene on the panel, writes pictures of it, and tells what it took.
 ///

@@ -15,6 +15,9 @@ use octray_core::trace::{Tracer, Workspace};
 /// Red, green and blue in 8 bits.
 pub type Level = [u8; 3];
 
+/// Rows of a strip, on the boards and on the simulated panel.
+pub const ROWS: u32 = 4;
+
 /// Renders a picture into `target`, from top to bottom. `strip` is the only picture memory: as many
 /// whole rows as it has room for are rendered, then drawn. It needs room for one row, two if a ray
 /// colours more than one pixel; with less, nothing is drawn.

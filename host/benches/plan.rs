@@ -14,6 +14,7 @@ use octray::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
 use octray::measure::reference::View;
 use octray::measure::report::Report;
 use octray::measure::row::{COLUMNS, Row};
+use octray::output;
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
@@ -61,7 +62,7 @@ struct Args {
     /// Fit to the record that is there, without measuring
     #[arg(long)]
     fit: bool,
-    /// Boards that are measured
+    /// Boards that are measured; the record keeps what it has of others
     #[arg(long, value_delimiter = ',', default_values = BOARDS)]
     boards: Vec<String>,
     /// Given by cargo
@@ -86,11 +87,16 @@ fn run(args: &Args) -> Result<(), Box<dyn Error>> {
     let record = host.join("record/plan.csv");
     if !args.fit {
         let report = measure(&args.boards, &scenes, &interrupt)?;
+        let folder = tempfile::tempdir()?;
+        let measured = folder.path().join("plan.csv");
         let job = MeasureJob {
-            csv: Some(record.clone()),
+            csv: Some(measured.clone()),
             ..job(Vec::new(), TreeKind::Packed, &[])
         };
         report.write(&COLUMNS, &job, &interrupt)?;
+        let mut renewed = Vec::new();
+        record::renew(File::open(&record)?, File::open(&measured)?, &mut renewed)?;
+        output::write_file(&record, &interrupt, |out| out.write_all(&renewed))?;
     }
     let samples: Result<Vec<Sample>, _> = (record::read(File::open(&record)?)?.into_iter())
         .map(|line| line.sample(&scenes, &interrupt))
@@ -160,6 +166,7 @@ fn job(scenes: Vec<PathBuf>, tree: TreeKind, boards: &[&'static Board]) -> Measu
             size: (64, 48),
             max_depth: 8,
             pixels_per_ray: PixelsPerRay::One,
+            cut_off: 1.0 / 512.0,
         },
         build: BuildOptions {
             tree,

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use clap::ValueEnum;
-use octray_core::octree;
+use octray_core::octree::{self, PACKED_DEPTH};
 use octray_engine::options::{Arith, PixelsPerRay};
 use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::plan::Plan;
@@ -51,9 +51,6 @@ pub enum TreeKind {
     None,
 }
 
-/// The deepest tree that may be baked.
-const TREE_DEPTH: u32 = 24;
-
 /// Bake the scene and write the source.
 ///
 /// # Errors
@@ -72,7 +69,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .into_owned();
     let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
     let growth = octree::Options {
-        depth: TREE_DEPTH,
+        depth: PACKED_DEPTH,
         leaf_size: job.leaf_size,
     };
     let chosen = Options {

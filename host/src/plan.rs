@@ -4,7 +4,8 @@
 //! In the order of the data: a checked [`job`]; [`accuracy`] finds by rendering how many bounces, pixels
 //! per ray and bits the picture needs; [`events`] counts what happens meanwhile, from which the [`model`]
 //! predicts instructions and memory; [`choice`] takes the cheapest arithmetic and tree that fit; and
-//! [`report`] tells it; a [`trial`] measures what came of it. The model is [fitted](fit) to a [`record`] of measurements.
+//! [`report`] tells it, with a remedy if nothing fits; a [`trial`] measures what came of it. The model is
+//! [fitted](fit) to a [`record`] of measurements.
 
 pub mod accuracy;
 pub mod choice;
@@ -14,6 +15,7 @@ pub mod job;
 pub mod model;
 mod reasons;
 pub mod record;
+mod remedy;
 pub mod report;
 pub mod trial;
 
@@ -60,11 +62,23 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     Ok(())
 }
 
-/// The plan of a scene.
+/// The plan of a scene; if it does not fit, with what would.
 ///
 /// # Errors
 /// [`Error::Failed`] if no packed tree can hold the scene; [`Error::Interrupted`].
 pub fn plan(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Report, Error> {
+    let plan = |job: &PlanJob| nearest(job, scene, interrupt);
+    let mut report = plan(job)?;
+    let options = remedy::options(job, &report, plan)?;
+    if !options.is_empty() {
+        let options = options.join(", or with ");
+        report.failures.push(format!("it fits with {options}"));
+    }
+    Ok(report)
+}
+
+/// The plan that fits, or the one that is nearest to it.
+fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Report, Error> {
     let scope = Scope {
         scene,
         size: job.size.unwrap_or((scene.width, scene.height)),

@@ -147,13 +147,14 @@ fn instructions_of_this_machine_are_the_same_twice_and_differ_by_arithmetic() {
 #[test]
 fn a_board_counts_for_a_chart_what_it_counts_for_measure() {
     let folder = folder();
-    let line = "a.scene --cost m3 --size 16x12 --arith i16f16 --pixels-per-ray 1,4 --converged-samples 1 \
-                --json a.json";
+    let line = "a.scene --cost m3 --size 16x12 --arith i16f16 --pixels-per-ray 1,4 --cut-off 1/512,0.5 \
+                --converged-samples 1 --json a.json";
     if run(folder.path(), line).is_none() {
         return;
     }
     let points = points(folder.path(), "a.json");
-    for point in &points {
+    // The second differs from the first in the cut-off, the last two in pixels per ray.
+    for point in &points[1..3] {
         let command = point["command"].as_str().unwrap();
         let words = command.strip_prefix("octray ").unwrap();
         let output = Command::new(cargo_bin!("octray"))
@@ -166,10 +167,12 @@ fn a_board_counts_for_a_chart_what_it_counts_for_measure() {
         let row = &measured["rows"][0];
         assert_eq!(row["instructions"].as_f64(), point["cost"].as_f64());
         assert_eq!(row["pixels_per_ray"], point["pixels_per_ray"]);
+        assert_eq!(row["cut_off"], point["cut_off"]);
         assert_eq!(row["psnr"], point["psnr"]);
     }
     let cost = |i: usize| points[i]["cost"].as_f64().unwrap();
-    let ratio = cost(1) / cost(0);
+    assert!(cost(1) < cost(0) && cost(3) < cost(2));
+    let ratio = cost(2) / cost(0);
     assert!((0.2..0.35).contains(&ratio), "{ratio}");
 }
 

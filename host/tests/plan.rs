@@ -210,20 +210,37 @@ fn what_is_emitted_is_baked() {
 
 #[test]
 fn what_does_not_fit_is_told_with_what_would() {
-    // No format has quite its picture.
     let scene = "scenes/isometric.scene --size 64x48";
-    for (bound, expected) in [
-        ("--ram 900", "error: RAM: the nearest plan takes "),
-        ("--flash 9000", "more than 9,000; it fits with --flash "),
-        (
-            "--min-psnr 200 --arith fixed",
-            "error: PSNR: nothing reaches 200 dB",
-        ),
+    for (bounds, remedies, failures) in [
+        ("--ram 900", 2, ["error: RAM: the nearest plan takes "; 2]),
+        ("--flash 9000", 1, ["error: flash: ", "more than 9,000"]),
+        ("--flash 9000 --ram 900", 2, ["flash: ", "RAM: "]),
     ] {
-        let output = octray(&format!("plan {scene} {bound}"));
+        let output = octray(&format!("plan {scene} {bounds}"));
         let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{bound}: {told}");
-        assert!(told.contains(expected), "{bound}: {told}");
+        assert_eq!(output.status.code(), Some(1), "{bounds}: {told}");
+        for failure in failures {
+            assert!(told.contains(failure), "{bounds}: {told}");
+        }
+        let (_, fits) = told.trim_end().split_once("it fits with ").unwrap();
+        let fits: Vec<_> = fits.split(", or with ").collect();
+        assert_eq!(fits.len(), remedies, "{told}");
+        for remedy in fits {
+            // Each of them in place of what was asked for.
+            let mut words: Vec<_> = format!("{scene} {bounds}")
+                .split(' ')
+                .map(String::from)
+                .collect();
+            for option in remedy.split(' ').collect::<Vec<_>>().chunks(2) {
+                match words.iter().position(|word| word == option[0]) {
+                    Some(at) => words[at + 1] = option[1].into(),
+                    None => words.extend(option.iter().map(|word| (*word).into())),
+                }
+            }
+            let output = octray(&format!("plan {}", words.join(" ")));
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{bounds}: {remedy}: {told}");
+        }
     }
     for line in [
         "plan",
@@ -233,4 +250,52 @@ fn what_does_not_fit_is_told_with_what_would() {
     ] {
         assert_eq!(octray(line).status.code(), Some(2), "{line}");
     }
+}
+
+#[test]
+fn what_no_format_can_do_is_told_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let head = "v 0 0 9 resolution 8 8 l 5 5 9";
+    let ball = "s 0 0 -5 4";
+    let heavy = format!("{head} 1 f 0 0 0 1 1 1 0 0 0 0 0.5 1.5 1.5 {ball}");
+    let bright = format!("{head} 1e12 f 0 0 0 1 1 1 0 0 0 0 0 0 {ball}");
+    for (options, expected) in [
+        // No format has quite its picture.
+        (
+            "scenes/isometric.scene --size 64x48 --min-psnr 200",
+            "error: PSNR: nothing reaches 200 dB; ",
+        ),
+        (
+            &file("heavy.scene", &heavy),
+            "takes transmitted shares up to 1, but that of surface 1 is 1.5; f32 might do",
+        ),
+        (
+            &file("bright.scene", &bright),
+            "but the brightness of light 1 can reach 1000000000000.000000; f32 might do",
+        ),
+    ] {
+        let output = octray(&format!("plan {options} --arith fixed"));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{options}: {told}");
+        assert!(told.contains(expected), "{options}: {told}");
+    }
+}
+
+#[test]
+fn the_manual_shows_what_is_printed() {
+    let manual = fs::read_to_string(root().join("README.md")).unwrap();
+    let line = "plan scenes/figure-22.scene --target m0 --size 160x120";
+    let (_, shown) = manual
+        .split_once(&format!("    $ octray {line}\n"))
+        .unwrap();
+    let (shown, _) = shown.split_once("\n\n").unwrap();
+    let shown = shown.lines().map(|line| line.strip_prefix("    ").unwrap());
+    let output = octray(line);
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.eq(printed.lines()), "{printed}");
 }

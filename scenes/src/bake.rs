@@ -34,6 +34,9 @@ use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use thiserror::Error;
 
+/// Rays of less weight are not traced, where nothing else is asked for: it is less than half a level.
+pub const CUT_OFF: f64 = 1.0 / 512.0;
+
 /// What is baked besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options<'a> {

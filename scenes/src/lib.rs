@@ -12,6 +12,7 @@
 //! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
 //! | [`tree`] | octrees of a quantised scene, in memory of their own |
 //! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
+//! | [`target`] | what a target's core is good at, as far as it decides which tree is best |
 //! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 //!
@@ -33,6 +34,7 @@ pub mod model;
 pub mod parse;
 pub mod plan;
 pub mod quantise;
+pub mod target;
 pub mod tree;
 pub mod write;
 

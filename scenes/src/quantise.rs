@@ -16,7 +16,7 @@ mod shapes;
 
 pub use camera::View;
 pub use extent::Extent;
-pub use limits::{Bound, Overflow, bounds, limits};
+pub use limits::{Bound, Overflow, bounds, finest, limits};
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::model;
@@ -130,7 +130,7 @@ pub struct Prepared<S: Quantize> {
 /// Brings a scene and a view of it into format `S`.
 ///
 /// # Errors
-/// If a colour, a coefficient or a refraction index does not fit the format.
+/// If a colour, a coefficient, a refraction index or a transmitted share does not fit the format.
 pub fn quantise<S: Quantize>(scene: &model::Scene, view: &View) -> Result<Prepared<S>, Overflow> {
     limits::<S>(scene, view.max_depth)?;
     let rays = view.rays(scene);

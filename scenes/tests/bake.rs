@@ -86,3 +86,22 @@ fn every_format_has_a_name_and_no_other_name_has_a_format() {
     let unknown = baked(scene, "i1f1", 8);
     assert_eq!(unknown, Err(BakeError::Unknown("i1f1".into())));
 }
+
+#[test]
+fn what_a_format_cannot_have_is_told() {
+    let glass = "f 0 0 0 1 1 1 0 0 0 0 0 1.5 1.5 s 0 0 -5 1";
+    let why = baked(glass, "i16f16", 8).unwrap_err().to_string();
+    assert_eq!(
+        why,
+        "i16f16 takes transmitted shares up to 1, but that of surface 1 is 1.5"
+    );
+    assert!(baked(glass, "f32", 8).is_ok());
+    let bright = "f 0 0 0 9e4 1 1 0 0 0 0 0 0 s 0 0 -5 1";
+    let why = baked(bright, "i16f16", 8).unwrap_err().to_string();
+    let told = "but diffuse and specular light of surface 1 can reach 90000.000000";
+    assert!(
+        why.starts_with("i16f16 holds numbers below 32767.99"),
+        "{why}"
+    );
+    assert!(why.ends_with(told), "{why}");
+}

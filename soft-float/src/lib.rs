@@ -1,8 +1,8 @@
 //! IEEE 754 binary32 in integers, for cores without a floating-point unit: numbers are their bits,
 //! results are rounded to nearest, ties to even, with subnormal numbers, infinities and -0.
 //!
-//! The first operand that is NaN is the result, made quiet; an invalid operation brings `7fc00000`.
-//! Normal numbers take the short way through every function; a cold one takes the rest.
+//! The first operand that is NaN is the result, made quiet ([`sub`] turns the sign of its second operand, even
+//! of a NaN); an invalid operation brings `7fc00000`. Normal numbers take the short way through every function; a cold one takes the rest.
 //!
 //! With the feature `replace`, and on targets whose compiler calls routines for `f32`, the functions
 //! also have the routines' names, and the linker takes them instead.

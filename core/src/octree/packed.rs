@@ -47,15 +47,16 @@ pub struct Packed<'a, const ROOM: usize = PACKED_STACK> {
 
 /// The nodes and leaves that wait while a packed tree is walked: the ticks at which each is
 /// entered in the upper half, its place in the lower one, so that the nearer is the smaller.
-/// Depth beyond [`PACKED_STACK`] is cut off when the tree is built; [`Packed::waiting`] tells how much less
+/// Depth beyond [`PACKED_DEPTH`] is cut off when the tree is built; [`Packed::waiting`] tells how much less
 /// room does.
 #[derive(Clone, Copy, Debug)]
 pub struct PackedStack<const ROOM: usize = PACKED_STACK>([u32; ROOM]);
 
 /// Room of a [`PackedStack`] that does for any tree.
 pub const PACKED_STACK: usize = 64;
-/// The deepest tree whose walk fits it: every level leaves seven behind.
-const DEEPEST: u32 = (PACKED_STACK as u32 - 8) / 7;
+/// The deepest packed tree, whose walk fits it: every level leaves seven behind.
+pub const PACKED_DEPTH: u32 = (PACKED_STACK as u32 - 8) / 7;
+const _: () = assert!(PACKED_DEPTH <= MAX_DEPTH);
 
 impl<const ROOM: usize> Default for PackedStack<ROOM> {
     fn default() -> Self {
@@ -110,7 +111,7 @@ impl<'a> Packed<'a> {
         };
         if count > 0 {
             builder.node(0, count).ok_or(too_small)?;
-            builder.grow(options.depth.clamp(1, DEEPEST.min(MAX_DEPTH)), &mut summary);
+            builder.grow(options.depth.clamp(1, PACKED_DEPTH), &mut summary);
         }
         let (used, tick) = (builder.used, builder.tick);
         Ok((
@@ -371,7 +372,7 @@ impl Slab {
 impl<const ROOM: usize> Packed<'_, ROOM> {
     /// The most nodes and leaves that can ever wait, whatever the ray: the room that a stack needs.
     pub fn waiting(&self) -> usize {
-        self.waiting_below(0, DEEPEST)
+        self.waiting_below(0, PACKED_DEPTH)
     }
 
     /// The same below a node: all its children, or all but one while that one is walked.

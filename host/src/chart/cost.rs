@@ -240,6 +240,7 @@ impl<'a> Meter<'a> {
                 size: self.job.size,
                 max_depth: setting.max_depth,
                 pixels_per_ray: setting.pixels_per_ray,
+                cut_off: setting.cut_off,
             },
             build: BuildOptions {
                 tree,

@@ -344,7 +344,7 @@ pub(super) mod tests {
         assert_eq!(
             board.command(&setting),
             "octray measure 'a b.scene' --targets=m3 --arith=approx0 --size=16x16 --tree=packed \
-             --max-depth=8 --pixels-per-ray=1"
+             --max-depth=8 --cut-off=1/512 --pixels-per-ray=1"
         );
     }
 

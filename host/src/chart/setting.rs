@@ -175,6 +175,7 @@ impl Setting {
             format!("--size={}x{}", size.0, size.1),
             format!("--tree={tree}"),
             format!("--max-depth={}", self.max_depth),
+            format!("--cut-off={}", fraction(self.cut_off)),
             format!("--pixels-per-ray={}", self.pixels_per_ray.number()),
         ]
     }

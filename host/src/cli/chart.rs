@@ -23,7 +23,7 @@ Every combination of the lists is a point. An arithmetic's name tells Newton ste
 fraction bits. Costs are host-time (seconds; differs from run to run), host-instructions (counted by Valgrind), events \
 (instructions estimated from counted rays, steps and tests: for settings, being the same for all arithmetics), and boards \
 such as m3 (instructions counted in QEMU; see octray measure), which have no trees but \
-packed and none, the cut-off 1/512, and no several rays per pixel.
+packed and none, and no several rays per pixel.
 
 The knee is the point of the frontier that lies farthest above the straight line between its ends, in decibels over \
 the logarithm of the cost.")]
@@ -142,10 +142,8 @@ impl ChartArgs {
                     "{board} has no {tree} tree: expected packed or none"
                 ));
             }
-            if (&*grid.cut_offs, &*grid.samples) != (&[1.0 / 512.0], &[1]) {
-                return usage(format!(
-                    "on {board} the cut-off is 1/512, and no pixel has several rays"
-                ));
+            if grid.samples != [1] {
+                return usage(format!("on {board} no pixel has several rays"));
             }
         }
         let against = match grid.is_of_one_picture() {
@@ -231,8 +229,8 @@ mod tests {
     fn with_a_board_the_tree_is_one_that_boards_have() {
         assert_eq!(job("a --cost m3,host-time").grid.trees, [Tree::Packed]);
         assert_eq!(job("a --cost m3 --tree none").grid.trees, [Tree::None]);
-        let both = job("a --cost m3 --pixels-per-ray 1,4").grid;
-        assert_eq!(both.settings().len(), 24);
+        let all = job("a --cost m3 --pixels-per-ray 1,4 --cut-off 0,0.1").grid;
+        assert_eq!(all.settings().len(), 48);
     }
 
     #[test]
@@ -255,7 +253,6 @@ mod tests {
             ("--max-depth 0,1,2,3,4", "300 combinations"),
             ("a --cost m3 --tree tight", "m3 has no tight tree"),
             ("a --cost m3 --samples 2", "no pixel has several rays"),
-            ("a --cost m3 --cut-off 0", "on m3 the cut-off is 1/512"),
             ("a -o b.bmp", ".bmp"),
             ("a -o b.svg --csv b.svg", "one file"),
             ("a --json a", "which is read"),

@@ -26,7 +26,7 @@ pub struct MeasureArgs {
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// Measure single operations instead of scenes: arithmetic, hit tests, voxel step, shaded light
-    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "pixels_per_ray", "tree", "functions", "chart"])]
+    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "pixels_per_ray", "cut_off", "tree", "functions", "chart"])]
     kernels: bool,
     /// Boards or targets, separated by commas [default: all]
     #[arg(long, value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
@@ -49,6 +49,9 @@ pub struct MeasureArgs {
     /// Pixels that one ray colours: 1, or 4 in squares of two by two
     #[arg(long, value_name = "N", value_enum, default_value_t)]
     pixels_per_ray: PixelsPerRay,
+    /// The weight, from 0 to 1, below which a ray is not traced
+    #[arg(long, value_name = "C", default_value = "1/512", value_parser = value::weight)]
+    cut_off: f64,
     /// The firmware's tree
     #[arg(long, value_name = "KIND", value_enum, default_value_t)]
     tree: TreeKind,
@@ -105,6 +108,7 @@ impl MeasureArgs {
                 size: self.size,
                 max_depth: self.max_depth,
                 pixels_per_ray: self.pixels_per_ray,
+                cut_off: self.cut_off,
             },
             build: BuildOptions {
                 tree: self.tree,
@@ -148,6 +152,7 @@ mod tests {
         assert_eq!(job.ariths, [Arith::F32, Arith::Auto]);
         assert_eq!((job.view.size, job.view.max_depth), ((64, 48), 8));
         assert_eq!(job.view.pixels_per_ray, PixelsPerRay::One);
+        assert_eq!(job.view.cut_off, 1.0 / 512.0);
         assert_eq!(job.build.tree, TreeKind::Packed);
         assert_eq!(job.build.optimize, Goal::Speed);
     }
@@ -173,6 +178,7 @@ mod tests {
             "--kernels --size 8x8",
             "--kernels --pixels-per-ray 4",
             "--pixels-per-ray 2",
+            "--cut-off 2",
             "--kernels --chart a.svg",
         ] {
             assert!(parse(line).is_err(), "{line}");

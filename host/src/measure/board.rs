@@ -211,6 +211,14 @@ mod tests {
     }
 
     #[test]
+    fn floats_are_emulated_where_there_is_no_unit() {
+        for board in &BOARDS {
+            let emulated = octray_scenes::target::emulates_floats(board.target);
+            assert_eq!(board.fpu, !emulated, "{board}");
+        }
+    }
+
+    #[test]
     fn no_name_names_two_boards() {
         for (i, board) in BOARDS.iter().enumerate() {
             let others = &BOARDS[i + 1..];

@@ -163,14 +163,15 @@ impl Bench<'_> {
         let size = format!("{}x{}", view.size.0, view.size.1);
         let depth = view.max_depth.to_string();
         let pixels = view.pixels_per_ray.number().to_string();
+        let cut_off = view.cut_off.to_string();
         let variables = [
             ("OCTRAY_SCENE", scene),
             ("OCTRAY_ARITH", arith.name()),
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
             ("OCTRAY_PIXELS_PER_RAY", &pixels),
+            ("OCTRAY_CUT_OFF", &cut_off),
             ("OCTRAY_TREE", options.tree.name()),
-            ("OCTRAY_COUNTS", "0"),
         ];
         let firmware = ("octray-firmware", None);
         (self.workspace).firmware(
@@ -194,6 +195,7 @@ fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> 
         height: job.view.size.1,
         max_depth: job.view.max_depth,
         pixels_per_ray: job.view.pixels_per_ray.number(),
+        cut_off: job.view.cut_off,
         board,
         arith,
         tree: job.build.tree,

@@ -21,10 +21,9 @@ pub struct View {
     pub max_depth: u32,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
+    /// The weight below which no ray is traced, 0 to 1.
+    pub cut_off: f64,
 }
-
-/// Below which weight the firmware traces no ray.
-const CUT_OFF: f64 = 1.0 / 512.0;
 
 /// The host's picture.
 #[derive(Clone, Debug)]
@@ -68,7 +67,7 @@ pub fn render(
         pixels_per_ray: view.pixels_per_ray,
         samples: 1,
         max_depth: view.max_depth,
-        cut_off: CUT_OFF,
+        cut_off: view.cut_off,
     };
     let work = WorkOptions {
         threads: NonZeroUsize::MIN,

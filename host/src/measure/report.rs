@@ -112,6 +112,7 @@ pub(super) mod tests {
             height: 48,
             max_depth: 8,
             pixels_per_ray: 1,
+            cut_off: 0.01,
             board: &BOARDS[1],
             arith: Arith::Auto,
             tree: TreeKind::Packed,

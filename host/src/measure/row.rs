@@ -24,6 +24,8 @@ pub struct Row {
     pub max_depth: u32,
     /// Pixels that one ray colours.
     pub pixels_per_ray: u32,
+    /// The weight below which no ray was traced.
+    pub cut_off: f64,
     /// The board.
     pub board: &'static Board,
     /// The arithmetic that was asked for.
@@ -43,13 +45,14 @@ pub struct Row {
 }
 
 /// The columns of comma-separated values: those of every row, in order.
-pub const COLUMNS: [&str; 38] = [
+pub const COLUMNS: [&str; 39] = [
     "scene",
     "objects",
     "width",
     "height",
     "max_depth",
     "pixels_per_ray",
+    "cut_off",
     "board",
     "target",
     "core",

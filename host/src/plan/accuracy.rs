@@ -7,20 +7,17 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::metric::Difference;
 use crate::picture::Picture;
-use octray_core::octree;
+use octray_core::octree::{self, PACKED_DEPTH};
 use octray_engine::options::DEEPEST;
-use octray_scenes::bake::Tree;
+use octray_scenes::bake::{CUT_OFF, Tree};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::{Plan, fingerprint};
 use octray_scenes::quantise::{Bound, bounds};
 use serde::Serialize;
 
-/// Rays of less weight are not traced: it is less than half a level.
-const CUT_OFF: f64 = 1.0 / 512.0;
-
 /// The packed tree that pictures are compared with; all trees give the same.
 const TREE: Tree = Tree::Packed(octree::Options {
-    depth: 24,
+    depth: PACKED_DEPTH,
     leaf_size: 2,
 });
 
@@ -71,6 +68,10 @@ pub struct Accuracy {
     pub largest: Bound,
     /// Bits before the point that it takes.
     pub integer_bits: u32,
+    /// The least distance that was asked for, in dB.
+    pub min_psnr: f64,
+    /// Why the scene has no fixed point, if it was tried and has none.
+    pub refused: Option<String>,
     /// Every arithmetic that was tried, the finest first.
     pub tried: Vec<Tried>,
 }
@@ -124,6 +125,8 @@ impl Scope<'_> {
             pixels_per_ray: 1,
             integer_bits: integer_bits(largest.value),
             largest,
+            min_psnr: self.min_psnr,
+            refused: None,
             tried: Vec::new(),
         };
         if coarse_psnr >= self.min_psnr {
@@ -159,16 +162,28 @@ impl Scope<'_> {
         Probe::render(self.scene, plan, self.interrupt)
     }
 
-    /// The fewest bounces with which the picture is the exact one. More bounces only add light, so that no
-    /// level goes back, and between here and there nothing can have changed.
+    /// The fewest bounces from which on the picture is the exact one.
     fn depth(&self, exact: &Picture) -> Result<u32, Error> {
+        let is_exact = |depth| -> Result<bool, Error> {
+            let probe = self.render(&self.plan("f64", 1, depth))?;
+            Ok(Difference::between(exact, &probe.picture)?.is_zero())
+        };
+        // A surface that lets more light through than it gets takes light away itself.
+        if (self.scene.surfaces.iter()).any(|surface| surface.refract > 1.0) {
+            let mut depth = DEEPEST;
+            while depth > 0 && is_exact(depth - 1)? {
+                depth -= 1;
+            }
+            return Ok(depth);
+        }
+        // Otherwise more bounces only add light, so that no level goes back, and between a picture like the
+        // exact one and that nothing can have changed.
         let (mut low, mut high) = (0, DEEPEST);
         // Few scenes need many bounces: the steps grow before they shrink.
         let mut step = 1;
         while low < high {
             let middle = (low + step - 1).min((low + high) / 2);
-            let probe = self.render(&self.plan("f64", 1, middle))?;
-            match Difference::between(exact, &probe.picture)?.is_zero() {
+            match is_exact(middle)? {
                 true => high = middle,
                 false => (low, step) = (middle + 1, 2 * step),
             }
@@ -179,22 +194,24 @@ impl Scope<'_> {
     /// Tries floats, and fixed point from the finest format to the first one that does not do.
     fn formats(&self, accuracy: &mut Accuracy, numbers: Numbers) -> Result<(), Error> {
         accuracy.tried.clear();
+        accuracy.refused = None;
         if numbers != Numbers::Fixed {
             accuracy.tried.push(self.attempt(accuracy, "f32", None)?);
         }
-        let room = 31u32.saturating_sub(accuracy.integer_bits);
-        let fixed = FORMATS.iter().rev().filter(|(_, bits)| *bits <= room);
-        for &(format, bits) in fixed.filter(|_| numbers != Numbers::F32) {
-            let tried = self.attempt(accuracy, format, Some(bits));
-            let tried = match tried {
-                // Bounds that hold for all of fixed point: a surface lets more light through than it gets.
-                Err(Error::Failed(_)) => return Ok(()),
-                tried => tried?,
-            };
-            let does = tried.does;
-            accuracy.tried.push(tried);
-            if !does {
-                break;
+        let fixed = (FORMATS.iter().rev()).filter(|_| numbers != Numbers::F32);
+        for &(format, bits) in fixed {
+            match self.attempt(accuracy, format, Some(bits)) {
+                // What is too large for this format may fit the next.
+                Err(Error::Failed(why)) => accuracy.refused = Some(why),
+                tried => {
+                    let tried = tried?;
+                    let does = tried.does;
+                    accuracy.tried.push(tried);
+                    accuracy.refused = None;
+                    if !does {
+                        break;
+                    }
+                }
             }
         }
         Ok(())
@@ -267,5 +284,35 @@ mod tests {
         ] {
             assert_eq!(integer_bits(largest), bits, "{largest}");
         }
+    }
+
+    /// Before a mirror a white sky; through it panes are seen, of which the third takes away three times what it
+    /// shines: the first bounce makes the picture white, the second black as it was.
+    #[test]
+    fn bounces_that_take_light_away_are_not_skipped() {
+        let pane =
+            |z: i32, surface: &str| format!("f {surface} p 4 -9 -9 {z} 9 -9 {z} 9 9 {z} -9 9 {z} ");
+        let black = "0 0 0 0 0 0 0 0 0 0";
+        let text = [
+            "v 0 0 9 resolution 4 4 b 1 1 1 ".into(),
+            pane(-1, &format!("{black} 1 1 1")),
+            pane(-2, &format!("{black} 0 1 1")),
+            pane(-3, "1 1 1 0 0 0 0 0 0 0 0 3 1"),
+            pane(-4, &format!("{black} 0 0")),
+        ];
+        let scene = octray_scenes::parse(&text.concat()).unwrap();
+        let scope = Scope {
+            scene: &scene,
+            size: (4, 4),
+            min_psnr: 40.0,
+            interrupt: &Interrupt::default(),
+        };
+        let picture = |depth| scope.render(&scope.plan("f64", 1, depth)).unwrap().picture;
+        let exact = picture(DEEPEST);
+        assert_eq!(
+            [0, 1, 2].map(|depth| picture(depth) == exact),
+            [true, false, true]
+        );
+        assert_eq!(scope.depth(&exact).unwrap(), 2);
     }
 }

@@ -6,7 +6,7 @@ use super::job::Bounds;
 use super::model::{Family, Model, Parts, Prediction, Weights};
 use crate::error::Error;
 use crate::measure::board::Board;
-use octray_core::octree;
+use octray_core::octree::{self, PACKED_DEPTH};
 use octray_scenes::bake::{Baked, Tree, bake};
 use octray_scenes::plan::Plan;
 
@@ -95,7 +95,7 @@ impl Chooser<'_> {
             .into_iter()
             .filter(|size| *size as usize <= objects.max(1))
         {
-            all.push(self.candidate(packed(24, leaf_size))?);
+            all.push(self.candidate(packed(PACKED_DEPTH, leaf_size))?);
         }
         // Shallower trees of the leaf size that is best.
         let best = cheapest(&all[first..]).map(|best| best.plan.tree);

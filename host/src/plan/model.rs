@@ -51,8 +51,6 @@ pub struct Parts {
     pub nodes: usize,
     /// What blocked each light last.
     pub blockers: usize,
-    /// The tree, if the device builds it.
-    pub tree: usize,
 }
 
 /// Rows of the firmware's strip.
@@ -66,16 +64,12 @@ impl Parts {
             rays: baked.rays * size_of::<Pending<f32>>(),
             nodes: baked.nodes * 4,
             blockers: lights * 8,
-            tree: match plan.tree {
-                Tree::Device(_) => baked.words * 4,
-                _ => 0,
-            },
         }
     }
 
     /// All of them.
     pub fn total(&self) -> usize {
-        self.strip + self.rays + self.nodes + self.blockers + self.tree
+        self.strip + self.rays + self.nodes + self.blockers
     }
 }
 

@@ -39,7 +39,8 @@ pub(super) fn pixels_per_ray(
                 "even so {}",
                 decibels(Some(*psnr).filter(|psnr| psnr.is_finite()))
             ),
-            false => "the picture has too much detail for 4".into(),
+            false if *psnr < accuracy.min_psnr => "the picture has too much detail for 4".into(),
+            false => "with 4 no numbers come close enough".into(),
         },
         cheaper: (!four).then(|| Cheaper {
             choice: "4".into(),

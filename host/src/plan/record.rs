@@ -6,13 +6,15 @@ use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::measure::board::{BOARDS, Board};
-use octray_core::octree;
-use octray_scenes::bake::{Baked, Tree, bake};
+use octray_core::octree::{self, PACKED_DEPTH};
+use octray_scenes::bake::{Baked, CUT_OFF, Tree, bake};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::{Plan, fingerprint};
+use octray_scenes::target::Test;
 use serde::Deserialize;
-use std::io::Read;
+use std::collections::BTreeSet;
+use std::io::{Read, Write};
 use std::path::Path;
 
 /// Where the random numbers of generated scenes start.
@@ -97,6 +99,45 @@ pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
     Ok(lines)
 }
 
+/// The record with what was measured anew: of boards that were not measured the lines stay. By board, its lines in
+/// the order in which they came. The columns are those of what was measured: what older lines do not tell is empty.
+///
+/// # Errors
+/// If either is no record; if `out` cannot be written.
+pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(), Error> {
+    let broken = |why: String| Error::Failed(format!("the record of measurements: {why}"));
+    let wrong = |why: csv::Error| broken(why.to_string());
+    let mut old = csv::Reader::from_reader(old);
+    let mut measured = csv::Reader::from_reader(measured);
+    let columns = measured.headers().map_err(wrong)?.clone();
+    let board = (columns.iter().position(|name| name == "board"))
+        .ok_or_else(|| broken("no column tells the board".into()))?;
+    let known = old.headers().map_err(wrong)?.clone();
+    let places: Vec<_> = (columns.iter())
+        .map(|name| known.iter().position(|known| known == name))
+        .collect();
+    let mut lines: Vec<_> = measured
+        .records()
+        .collect::<Result<_, _>>()
+        .map_err(wrong)?;
+    let boards: BTreeSet<String> = lines.iter().map(|line| line[board].to_owned()).collect();
+    for line in old.records() {
+        let line = line.map_err(wrong)?;
+        let cell = |place: &Option<usize>| place.and_then(|at| line.get(at)).unwrap_or_default();
+        let line: csv::StringRecord = places.iter().map(cell).collect();
+        if !boards.contains(&line[board]) {
+            lines.push(line);
+        }
+    }
+    lines.sort_by(|a, b| a[board].cmp(&b[board]));
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(&columns).map_err(wrong)?;
+    for line in &lines {
+        table.write_record(line).map_err(wrong)?;
+    }
+    table.flush().map_err(|why| broken(why.to_string()))
+}
+
 /// The scene that a record names.
 ///
 /// # Errors
@@ -114,6 +155,11 @@ pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
 }
 
 impl Line {
+    fn board(&self) -> Result<&'static Board, Error> {
+        let known = BOARDS.iter().find(|board| board.name == self.board);
+        known.ok_or_else(|| Error::Failed(format!("the record of measurements: {}", self.board)))
+    }
+
     /// The plan that this measures.
     ///
     /// # Errors
@@ -122,14 +168,9 @@ impl Line {
         let unknown = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
         let formats = octray_scenes::bake::FORMATS;
         // As the firmware's build script chooses it.
-        let board = (BOARDS.iter()).find(|board| board.name == self.board);
-        let dear = board.is_some_and(|board| {
-            let emulated = !board.fpu && Family::of(&self.format) == Family::F32;
-            emulated || board.target.starts_with("thumbv6m")
-        });
         let options = octree::Options {
-            depth: 24,
-            leaf_size: if dear { 1 } else { 2 },
+            depth: PACKED_DEPTH,
+            leaf_size: Test::of(&self.format, self.board()?.target).leaf_size(),
         };
         let mut plan = Plan {
             scene: fingerprint(scene),
@@ -138,7 +179,7 @@ impl Line {
             size: (self.width, self.height),
             pixels_per_ray: 1,
             max_depth: self.max_depth,
-            cut_off: 1.0 / 512.0,
+            cut_off: CUT_OFF,
             tree: match &*self.tree {
                 "packed" => Tree::Packed(options),
                 "none" => Tree::None,
@@ -169,9 +210,7 @@ impl Line {
         let failed = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
         let options = (plan.options(&scene, "")).map_err(|why| failed(&why.to_string()))?;
         let baked = bake(&scene, plan.arith, &options).map_err(|why| failed(&why.to_string()))?;
-        let board = (BOARDS.iter())
-            .find(|board| board.name == self.board)
-            .ok_or_else(|| failed(&self.board))?;
+        let board = self.board()?;
         Ok(Sample {
             family: Family::of(plan.arith),
             board,
@@ -181,5 +220,31 @@ impl Line {
             baked,
             line: self,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boards_that_are_not_measured_keep_their_lines() {
+        let renewed = |old: &str, measured: &str| {
+            let mut out = Vec::new();
+            renew(old.as_bytes(), measured.as_bytes(), &mut out)
+                .map(|()| String::from_utf8(out).unwrap())
+        };
+        let old = "scene,board,flash\na,m0,1\nb,m0,2\na,m3,3\nb,m3,4\na,m4,5\n";
+        let measured = "scene,board,flash\nb,m3,6\na,m3,7\n";
+        assert_eq!(
+            renewed(old, measured).unwrap(),
+            "scene,board,flash\na,m0,1\nb,m0,2\nb,m3,6\na,m3,7\na,m4,5\n"
+        );
+        // A column that is new, and one that is gone.
+        assert_eq!(
+            renewed("board,tree,scene\nm0,none,a\n", measured).unwrap(),
+            "scene,board,flash\na,m0,\nb,m3,6\na,m3,7\n"
+        );
+        assert!(renewed(old, "scene\na\n").is_err());
     }
 }

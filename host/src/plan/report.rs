@@ -29,7 +29,7 @@ pub struct Report {
     pub cost: Option<Cost>,
     /// What was measured, if it was.
     pub trial: Option<Trial>,
-    /// Which bounds fail, by how much, and what would fit.
+    /// Which bounds fail, by how much, and with which options it fits.
     pub failures: Vec<String>,
     /// The plan itself.
     #[serde(skip)]
@@ -111,10 +111,10 @@ impl Report {
                      it would do for --min-psnr {psnr}"
                 )
             }
-            None => format!(
-                "range: {} can reach {:.6}, more than 32-bit fixed point can hold; f32 might do",
-                accuracy.largest.what, accuracy.largest.value
-            ),
+            None => {
+                let why = accuracy.refused.as_deref().unwrap_or("nothing was tried");
+                format!("range: {why}; f32 might do")
+            }
         };
         Self {
             failures: vec![why],
@@ -288,34 +288,16 @@ impl Cheaper {
     }
 }
 
-/// Which bounds a plan fails, by how much, and what it would fit.
+/// Which bounds a plan fails, and by how much.
 fn failures(chosen: &Candidate, bounds: &Bounds) -> Vec<String> {
-    let Prediction { frames, lent, .. } = chosen.cost;
-    let (flash, ram) = (chosen.cost.flash(), chosen.cost.ram());
-    let mut failures = Vec::new();
-    let excess = |what, needs: u64, has: u64, fit| {
-        let (more, needed) = (thousands(needs - has), thousands(needs));
-        let has = thousands(has);
-        format!(
-            "{what}: the nearest plan takes {needed} bytes, {more} more than {has}; it fits with {fit}"
-        )
-    };
-    if flash > bounds.flash {
-        let fit = format!("--flash {flash}");
-        failures.push(excess("flash", flash, bounds.flash, fit));
-    }
-    if ram > bounds.ram {
-        // The strip is as wide as the picture.
-        let (width, height) = chosen.plan.size;
-        let others = frames.round() as u64 + (lent.total() - lent.strip) as u64;
-        let per_column = lent.strip as u64 / u64::from(width);
-        let narrow = bounds.ram.saturating_sub(others) / per_column.max(1);
-        let low = narrow * u64::from(height) / u64::from(width);
-        let fit = match narrow.min(low) {
-            0 => format!("--ram {ram}"),
-            _ => format!("--ram {ram} or --size {narrow}x{low}"),
-        };
-        failures.push(excess("RAM", ram, bounds.ram, fit));
-    }
-    failures
+    let needs = [
+        ("flash", chosen.cost.flash(), bounds.flash),
+        ("RAM", chosen.cost.ram(), bounds.ram),
+    ];
+    let failed = needs.into_iter().filter(|(_, needs, has)| needs > has);
+    let told = failed.map(|(what, needs, has)| {
+        let [needed, more, has] = [needs, needs - has, has].map(thousands);
+        format!("{what}: the nearest plan takes {needed} bytes, {more} more than {has}")
+    });
+    told.collect()
 }

@@ -14,8 +14,9 @@ use maud::{Markup, html};
 use octray_engine::options::{Arith, PixelsPerRay};
 use std::path::Path;
 
-/// The most bounces, as `octray render` has it.
+/// The most bounces and the least weight, as `octray render` has them.
 const MAX_DEPTH: u32 = 8;
+const CUT_OFF: f64 = 1.0 / 512.0;
 
 /// The section of a scene, the `index`th.
 ///
@@ -33,6 +34,7 @@ pub(super) fn section(
         size: job.size,
         max_depth: MAX_DEPTH,
         pixels_per_ray: PixelsPerRay::One,
+        cut_off: CUT_OFF,
     };
     let render = |arith| reference::render(&scene.scene, arith, view, interrupt);
     let exact = render(Arith::F64)?;

@@ -2,7 +2,7 @@
 
 use super::{BakeError, Baked, Options, bake_as};
 use crate::model::Scene;
-use crate::quantise::limits;
+use crate::quantise::finest;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 
 /// The names that [`bake`] knows, besides `auto`.
@@ -11,8 +11,7 @@ pub const FORMATS: [&str; 17] = [
     "i14f18", "i12f20", "i10f22", "i8f24", "i6f26", "i4f28", "i32f32",
 ];
 
-/// Bakes a scene in the arithmetic of that name; `auto` is the 32-bit fixed point with the most
-/// fraction bits that the scene cannot overflow.
+/// Bakes a scene in the arithmetic of that name; `auto` is the [`finest`] that the scene cannot overflow.
 ///
 /// # Errors
 /// If the scene does not fit the format or the tree, or there is no such arithmetic.
@@ -39,20 +38,4 @@ pub fn bake(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<Baked, 
         unknown => return Err(BakeError::Unknown(unknown.into())),
     };
     by(scene, options)
-}
-
-fn finest(scene: &Scene, max_depth: u32) -> &'static str {
-    if limits::<Fixed<28, false>>(scene, max_depth).is_ok() {
-        "i4f28"
-    } else if limits::<Fixed<24, false>>(scene, max_depth).is_ok() {
-        "i8f24"
-    } else if limits::<Fixed<20, false>>(scene, max_depth).is_ok() {
-        "i12f20"
-    } else if limits::<Fixed<16, false>>(scene, max_depth).is_ok() {
-        "i16f16"
-    } else if limits::<Fixed<12, false>>(scene, max_depth).is_ok() {
-        "i20f12"
-    } else {
-        "i24f8"
-    }
 }

@@ -2,38 +2,36 @@
 //! say how large they and all that is computed from them can become.
 
 use crate::model::Scene;
-use octray_core::scalar::Quantize;
-use std::fmt;
+use octray_core::scalar::{Fixed, Quantize};
+use thiserror::Error;
 
-/// A value of the scene that a format cannot hold.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Overflow {
-    /// The format's name.
-    pub format: &'static str,
-    /// What would overflow.
-    pub what: String,
-    /// How large it can become.
-    pub value: f64,
-    /// What the format holds.
-    pub limit: f64,
+/// Why a format cannot have a scene.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Overflow {
+    /// A value that the format cannot hold.
+    #[error("{format} holds numbers below {limit}, but {what} can reach {value:.6}")]
+    Range {
+        /// The format's name.
+        format: &'static str,
+        /// What would overflow.
+        what: String,
+        /// How large it can become.
+        value: f64,
+        /// What the format holds.
+        limit: f64,
+    },
+    /// A surface that lets more light through than it gets: only floats take that, whose own light is then
+    /// less than none.
+    #[error("{format} takes transmitted shares up to 1, but that of surface {surface} is {share}")]
+    Share {
+        /// The format's name.
+        format: &'static str,
+        /// The surface, the first being 1.
+        surface: usize,
+        /// Its share.
+        share: f64,
+    },
 }
-
-impl fmt::Display for Overflow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            format,
-            what,
-            value,
-            limit,
-        } = self;
-        write!(
-            f,
-            "{format} holds numbers below {limit}, but {what} can reach {value:.6}"
-        )
-    }
-}
-
-impl std::error::Error for Overflow {}
 
 /// How large something can become that is computed from a scene's colours and coefficients.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,24 +77,42 @@ pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
 /// # Errors
 /// The first value that would.
 pub fn limits<S: Quantize>(scene: &Scene, max_depth: u32) -> Result<(), Overflow> {
-    let overflow = |what, value, limit| Overflow {
-        format: S::NAME,
-        what,
-        value,
-        limit,
-    };
-    let limit = S::MAX.to_f64();
+    let (format, limit) = (S::NAME, S::MAX.to_f64());
     for Bound { what, value } in bounds(scene, max_depth) {
         if value >= limit * (1.0 - 1e-6) {
-            return Err(overflow(what, value, limit));
+            return Err(Overflow::Range {
+                format,
+                what,
+                value,
+                limit,
+            });
         }
     }
-    let floating = S::FRACTION_BITS.is_none();
-    // Only floats take a surface that lets more light through than it gets.
-    let heavy = (scene.surfaces.iter()).position(|surface| !floating && surface.refract > 1.0);
-    if let Some(i) = heavy {
-        let what = format!("the transmitted share of surface {}", i + 1);
-        return Err(overflow(what, scene.surfaces[i].refract, 1.0));
+    let heavy = (scene.surfaces.iter()).position(|surface| surface.refract > 1.0);
+    match heavy {
+        Some(i) if S::FRACTION_BITS.is_some() => Err(Overflow::Share {
+            format,
+            surface: i + 1,
+            share: scene.surfaces[i].refract,
+        }),
+        _ => Ok(()),
     }
-    Ok(())
+}
+
+/// What `auto` stands for: of 32-bit fixed point with 28, 24, 20, 16, 12 and 8 fraction bits the finest that
+/// the scene cannot overflow; the last if there is none.
+pub fn finest(scene: &Scene, max_depth: u32) -> &'static str {
+    if limits::<Fixed<28, false>>(scene, max_depth).is_ok() {
+        "i4f28"
+    } else if limits::<Fixed<24, false>>(scene, max_depth).is_ok() {
+        "i8f24"
+    } else if limits::<Fixed<20, false>>(scene, max_depth).is_ok() {
+        "i12f20"
+    } else if limits::<Fixed<16, false>>(scene, max_depth).is_ok() {
+        "i16f16"
+    } else if limits::<Fixed<12, false>>(scene, max_depth).is_ok() {
+        "i20f12"
+    } else {
+        "i24f8"
+    }
 }
