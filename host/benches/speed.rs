@@ -23,6 +23,7 @@ use octray::generate::{self, GenerateJob};
 use octray::interrupt::Interrupt;
 use octray::progress::Progress;
 use octray::render::Traced;
+use octray::stats::Rays;
 use octray_scenes::generate::{Kind, Spec};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -224,9 +225,9 @@ impl Subject {
             build: one.build.as_secs_f64(),
             render: one.render.as_secs_f64(),
             render_on_two: two.render.as_secs_f64(),
-            rays: one.rays.total(),
-            steps: one.steps,
-            tests: one.tests,
+            rays: Rays::of(&one.counters).total(),
+            steps: one.counters.steps(),
+            tests: one.counters.tests(),
             hash: one.picture.hash(),
             hash_on_two: two.picture.hash(),
         });

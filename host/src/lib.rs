@@ -4,7 +4,7 @@
 //! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`plan`], [`stability`], [`chart`], [`tables`]) to an exit code ([`error`]).
 //!
 //! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
-//! - [`packets`], [`deal`], [`threads`]: the work cut into packets and dealt to threads
+//! - [`packets`], [`deal`], [`threads`], [`assembly`]: the work cut into packets, dealt to threads, and put together
 //! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
 //! - [`packing`]: the shape of packets and the way to deal them that suit a scene
 //! - [`octray_engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
@@ -14,6 +14,7 @@
 //! - [`canvas`]: what charts and maps are drawn on
 //! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
 
+pub mod assembly;
 pub mod bake;
 pub mod canvas;
 pub mod chart;

@@ -32,14 +32,18 @@ impl Shape {
         }
     }
 
-    /// How many packets cover a region.
-    pub fn count(self, region: &Region) -> usize {
+    /// How many packets there are beside each other in a region.
+    pub fn across(self, region: &Region) -> usize {
         let width = region.columns.len();
-        let across = match self.columns {
+        match self.columns {
             Some(columns) => width.div_ceil(columns.get() as usize),
             None => usize::from(width > 0),
-        };
-        across * region.rows.len().div_ceil(self.rows.get() as usize)
+        }
+    }
+
+    /// How many packets cover a region.
+    pub fn count(self, region: &Region) -> usize {
+        self.across(region) * region.rows.len().div_ceil(self.rows.get() as usize)
     }
 
     /// The packets that cover a region, row by row from its upper left corner.
@@ -70,7 +74,7 @@ impl fmt::Display for Shape {
 }
 
 /// A part of a picture in memory of its own, so that threads which trace parts beside each other do not write
-/// into the same cache lines.
+/// into the same cache lines; [`crate::assembly`] makes a picture of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Which pixels of the picture these are.

@@ -10,6 +10,7 @@ use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::stats::{Rays, Seconds, Stats, Work};
 use crate::summary::Summary;
+use octray_core::observe::{Counters, RayKind};
 use octray_engine::Octree;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
@@ -25,14 +26,8 @@ pub struct Traced {
     pub scale: i32,
     /// What the format is too coarse for, if anything.
     pub too_fine: Option<String>,
-    /// Rays by kind.
-    pub rays: Rays,
-    /// Voxels or nodes that rays went through.
-    pub steps: u64,
-    /// Objects that rays were tested against.
-    pub tests: u64,
-    /// Eye rays that met an object.
-    pub hits: u64,
+    /// Rays, steps, tests and hits.
+    pub counters: Counters,
     /// Fixed-point results that had to be clamped.
     pub saturations: u64,
     /// The octree.
@@ -87,10 +82,10 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         scale: traced.scale,
         too_fine: traced.too_fine.clone(),
         size: traced.picture.size(),
-        rays: traced.rays,
-        steps: traced.steps,
-        tests: traced.tests,
-        hits: traced.hits,
+        rays: Rays::of(&traced.counters),
+        steps: traced.counters.steps(),
+        tests: traced.counters.tests(),
+        hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,
         octree: traced.octree,
         seconds: Seconds {
@@ -109,7 +104,7 @@ mod tests {
     use crate::deal::Policy;
     use crate::job::WorkOptions;
     use crate::picture::{self, RasDepth, Target};
-    use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+    use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
     use std::fs;
     use std::path::Path;
 
@@ -121,13 +116,7 @@ mod tests {
             output: Target::new(folder.join(output)).unwrap(),
             ras_depth: RasDepth::Eight,
             arith: Arith::F32,
-            tree: TreeOptions {
-                kind: Tree::None,
-                depth: None,
-                leaf_size: None,
-                arena: None,
-                link: Link::Shape,
-            },
+            tree: TreeOptions::of(Tree::None),
             view: ViewOptions {
                 size: None,
                 pixels_per_ray: PixelsPerRay::One,
@@ -151,10 +140,7 @@ mod tests {
             format: "f32".into(),
             scale: 0,
             too_fine: None,
-            rays: Rays::default(),
-            steps: 0,
-            tests: 0,
-            hits: 0,
+            counters: Counters::default(),
             saturations: 0,
             octree: Octree {
                 kind: Tree::None,

@@ -4,6 +4,7 @@ use crate::deal::Policy;
 use crate::facts::Facts;
 use crate::packets::Shape;
 use crate::packing::Forecast;
+use octray_core::observe::{Counters, RayKind};
 use octray_engine::Octree;
 use octray_engine::options::Arith;
 use serde::{Serialize, Serializer};
@@ -70,6 +71,17 @@ pub struct Rays {
 }
 
 impl Rays {
+    /// Those that were counted.
+    pub fn of(counters: &Counters) -> Self {
+        Self {
+            primary: counters.rays_of(RayKind::Primary),
+            shadow: counters.rays_of(RayKind::Shadow),
+            blocked: counters.blocked,
+            reflected: counters.rays_of(RayKind::Reflected),
+            transmitted: counters.rays_of(RayKind::Transmitted),
+        }
+    }
+
     /// All rays; the blocked ones are among the shadow rays.
     pub fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflected + self.transmitted

@@ -1,5 +1,6 @@
 //! Tracing a scene: made ready, cut into packets, dealt to threads.
 
+use crate::assembly::Assembly;
 use crate::deal::Deal;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
@@ -9,16 +10,15 @@ use crate::packing;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::render::Traced;
-use crate::stats::{Rays, Work};
+use crate::stats::Work;
 use crate::threads::{self, idle, run_packets};
-use octray_core::observe::{Counters, RayKind};
+use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Built, Engine, Worker};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The function that all tracing of [`trace`] happens in, as Callgrind names it.
@@ -44,7 +44,7 @@ pub fn trace(
     let (picture, counters, work, saturations) = rendered;
     let times = (build, begin.elapsed());
     let built = engine.built();
-    Ok(traced(built, picture, &counters, saturations, times, work))
+    Ok(traced(built, picture, counters, saturations, times, work))
 }
 
 /// A picture that was traced, and what it cost: counted events, saturations, the time to build and the time
@@ -52,7 +52,7 @@ pub fn trace(
 pub(crate) fn traced(
     built: &Built,
     picture: Picture,
-    counters: &Counters,
+    counters: Counters,
     saturations: u64,
     (build, render): (Duration, Duration),
     work: Work,
@@ -62,16 +62,7 @@ pub(crate) fn traced(
         format: built.format.into(),
         scale: built.scale,
         too_fine: built.too_fine.clone(),
-        rays: Rays {
-            primary: counters.rays_of(RayKind::Primary),
-            shadow: counters.rays_of(RayKind::Shadow),
-            blocked: counters.blocked,
-            reflected: counters.rays_of(RayKind::Reflected),
-            transmitted: counters.rays_of(RayKind::Transmitted),
-        },
-        steps: counters.steps(),
-        tests: counters.tests(),
-        hits: counters.hits[RayKind::Primary as usize],
+        counters,
         saturations,
         octree: built.octree,
         build,
@@ -116,7 +107,7 @@ pub fn render(
     let before = scalar::saturations();
     let parts: Vec<_> = packing.shape.cut(&region).collect();
     let count = parts.len();
-    let picture = Mutex::new(picture);
+    let assembly = Assembly::new(picture, &region, packing.shape);
     let threads = job.threads.min(at_least_one(count));
     progress.start(count);
     let finished = run_packets(
@@ -131,14 +122,10 @@ pub fn render(
         |worker, index| {
             let mut part = Part::black(parts[index].clone(), holds_intensities);
             trace_packet(&mut **worker, part.packet());
-            picture
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .put(&part);
+            assembly.put(index, part);
         },
         || progress.step(),
     )?;
-    let picture = picture.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut counters = Counters::default();
     for thread in &finished {
         counters.add(thread.state.counters());
@@ -153,7 +140,12 @@ pub fn render(
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
     let saturations = scalar::saturations().wrapping_sub(before);
-    Ok((picture, counters, work, u64::from(saturations)))
+    Ok((
+        assembly.into_picture(),
+        counters,
+        work,
+        u64::from(saturations),
+    ))
 }
 
 /// What tracing comes to, without start-up and without the picture's file: [`TRACING`].

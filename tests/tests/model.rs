@@ -77,7 +77,7 @@ fn compare(name: &str, source: &str, shot: &Shot) -> Option<String> {
         .filter(|(_, (a, b))| (0..3).any(|i| a[i].abs_diff(b[i]) > 1))
         .map(|(i, (a, b))| format!("({}, {}): {a:?} not {b:?}", i % width, i / width))
         .collect();
-    let rays = unlike(&ours.rays, &theirs.counts);
+    let rays = unlike(&Rays::of(&ours.counters), &theirs.counts);
     if off.len() * 1000 <= expected.len() && rays.is_none() {
         return None;
     }

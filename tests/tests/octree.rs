@@ -2,6 +2,7 @@
 //! bit, in every arithmetic.
 
 use fastrand::Rng;
+use octray::stats::Rays;
 use octray_core::observe::Counters;
 use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
 use octray_core::ray::{Bounds, Ray};
@@ -54,7 +55,7 @@ fn pictures_are_the_same() {
                 shot.tree.arena = NonZeroUsize::new(arena);
                 shot.tree.link = link;
                 let traced = shot.take(&scene);
-                (traced.picture.levels().to_vec(), traced.rays)
+                (traced.picture.levels().to_vec(), Rays::of(&traced.counters))
             };
             let (picture, rays) = take(Tree::None, 0, options::Link::Shape);
             for kind in [Tree::Tight, Tree::Packed, Tree::Modified, Tree::Plain] {

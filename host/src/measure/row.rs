@@ -6,6 +6,7 @@ use super::cycles::Estimate;
 use super::job::{Goal, TreeKind};
 use super::memory::Memory;
 use super::reference::Reference;
+use crate::stats::Rays;
 use octray_engine::options::Arith;
 use serde::Serialize;
 
@@ -165,7 +166,7 @@ impl Cost {
     ) -> Self {
         let traced = &reference.traced;
         let pixels = traced.picture.levels().len() as u64;
-        let rays = &traced.rays;
+        let rays = Rays::of(&traced.counters);
         let closest = rays.primary + rays.reflected + rays.transmitted;
         let (found, finding) = count.calls_of("nearest");
         let seeking = count.calls_of("any_hit").1 + count.calls_of("blocks").1;

@@ -9,6 +9,7 @@ use crate::job::{RenderJob, WorkOptions};
 use crate::packets::Shape;
 use crate::progress::Progress;
 use crate::render::Traced;
+use crate::stats::Rays;
 use crate::trace::trace;
 use octray_core::packet::Region;
 use octray_engine as engine;
@@ -34,12 +35,12 @@ pub struct Tally {
     /// Pixels of the picture.
     pub pixels: u64,
     /// Rays by kind.
-    pub rays: crate::stats::Rays,
+    pub rays: Rays,
     /// Voxels that rays went through.
     pub steps: u64,
     /// Surfaces that rays were tested against.
     pub tests: u64,
-    /// Instructions, by [`cost::weigh`].
+    /// Instructions, by [`cost::cost`].
     pub instructions: f64,
     /// Time to trace, in seconds.
     pub seconds: f64,
@@ -120,21 +121,13 @@ impl<'a> Lab<'a> {
 
 impl Tally {
     fn of(traced: &Traced) -> Self {
-        let rays = traced.rays;
-        let events = [
-            rays.primary,
-            rays.reflected + rays.transmitted,
-            rays.shadow,
-            rays.shadow - rays.blocked,
-            traced.steps,
-            traced.tests,
-        ];
+        let counters = &traced.counters;
         Self {
             pixels: traced.picture.levels().len() as u64,
-            rays,
-            steps: traced.steps,
-            tests: traced.tests,
-            instructions: cost::weigh(events),
+            rays: Rays::of(counters),
+            steps: counters.steps(),
+            tests: counters.tests(),
+            instructions: cost::cost(counters),
             seconds: traced.render.as_secs_f64(),
         }
     }
