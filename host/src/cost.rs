@@ -5,56 +5,63 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
+use octray_core::shape::Kind;
 use octray_engine::Engine;
 use std::num::NonZeroU32;
 use std::ops::Range;
 
 /// How many events there are weights for.
-pub const EVENTS: usize = 6;
+pub const EVENTS: usize = 11;
 
-/// What is counted, in the order of [`events`] and [`WEIGHTS`].
+/// What is counted, in the order of [`events`] and [`WEIGHTS`]; the kinds of objects in that of [`Kind::ALL`].
 pub const NAMES: [&str; EVENTS] = [
     "primary ray",
     "reflected or transmitted ray",
     "shadow ray",
     "light in sight",
+    "hit",
     "step",
-    "test",
+    "sphere tested",
+    "triangle tested",
+    "polygon tested",
+    "cone tested",
+    "box tested",
 ];
 
 /// Machine instructions for each event, on x86-64 in f32 with the tight tree: what
 /// `cargo bench -p octray --bench weights` fits to instructions counted by Callgrind. Other arithmetics and
 /// trees cost more or less, but in much the same places.
-///
-/// Fitted anew after the core was tuned they come out as 404, 430, 119, 278, 132 and 115, and tell the costs of
-/// the same strips no better: the mean errors of the ten scenes change by 1.7 percent at most. So these stay.
-pub const WEIGHTS: [f64; EVENTS] = [387.0, 506.0, 230.0, 186.0, 136.0, 98.0];
+pub const WEIGHTS: [f64; EVENTS] = [
+    411.0, 375.0, 116.0, 188.0, 326.0, 117.0, 95.0, 120.0, 106.0, 162.0, 251.0,
+];
 
 /// The events that make up the cost of what was counted.
 pub fn events(counters: &Counters) -> [u64; EVENTS] {
     let rays = |kind| counters.rays_of(kind);
+    let tested = |kind: Kind| {
+        let searches = counters.searches.iter();
+        searches.map(|search| search.tests[kind as usize]).sum()
+    };
+    let [sphere, triangle, polygon, cone, cuboid] = Kind::ALL.map(tested);
     [
         rays(RayKind::Primary),
         rays(RayKind::Reflected) + rays(RayKind::Transmitted),
         rays(RayKind::Shadow),
         rays(RayKind::Shadow) - counters.blocked,
+        counters.hits.iter().sum(),
         counters.steps(),
-        counters.tests(),
+        sphere,
+        triangle,
+        polygon,
+        cone,
+        cuboid,
     ]
 }
 
 /// The cost of what was counted, in instructions.
 pub fn cost(counters: &Counters) -> f64 {
-    weigh(events(counters))
-}
-
-/// The cost of events, in instructions.
-pub fn weigh(events: [u64; EVENTS]) -> f64 {
-    events
-        .iter()
-        .zip(WEIGHTS)
-        .map(|(count, weight)| *count as f64 * weight)
-        .sum()
+    let weighed = events(counters).into_iter().zip(WEIGHTS);
+    weighed.map(|(count, weight)| count as f64 * weight).sum()
 }
 
 /// What each part of a picture costs, in instructions.
