@@ -2,8 +2,9 @@
 //! itself and writes the picture; the others need no files.
 //!
 //! The scene is broadcast once, parsed. A rank has two packets in hand, so it need not wait for the next one while
-//! its answer is on the way. Every rank traces on one thread, and the first answers the others between its own
-//! packets. If a rank dies, `mpirun` says so and ends the others; the picture is written only when all of it is there.
+//! its answer is on the way, and puts its results into a buffer, so it need not wait until they are taken. Every rank
+//! traces on one thread, and the first answers the others between its own packets. If a rank dies, `mpirun` says so
+//! and ends the others; the picture is written only when all of it is there.
 
 mod lead;
 mod serve;
@@ -18,7 +19,9 @@ use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
 use octray_core::observe::{Counters, Searches};
+use octray_core::packet::Region;
 use octray_engine::options::{Arith, TreeOptions, ViewOptions};
+use octray_engine::packet::{Intensity, Level};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -39,6 +42,10 @@ const NONE: u32 = u32::MAX;
 
 /// Packets that a rank has in hand.
 const IN_HAND: usize = 2;
+
+/// Bytes that a message in a buffer takes beside its own: at least MPI_BSEND_OVERHEAD of the MPI libraries there are,
+/// which ask for 128 or fewer.
+const OVERHEAD: usize = 512;
 
 /// For how long a rank sleeps when there is no message.
 const PAUSE: Duration = Duration::from_micros(20);
@@ -107,7 +114,7 @@ impl Tally {
 /// On the first rank what [`render::run`] fails with. [`Error::Failed`] when MPI cannot be started, or the
 /// ranks are ended before the picture is done.
 pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
-    let universe = mpi::initialize().ok_or_else(|| failed("MPI cannot be started".into()))?;
+    let mut universe = mpi::initialize().ok_or_else(|| failed("MPI cannot be started".into()))?;
     let world = universe.world();
     let done = match world.rank() {
         0 => {
@@ -123,7 +130,7 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
                 false => return abandon(universe, done),
             }
         }
-        rank => match serve::serve(&world, interrupt) {
+        rank => match serve::serve(&mut universe, interrupt) {
             Ok(()) => Ok(()),
             // The first rank says it for all.
             Err(Error::Interrupted) => std::process::exit(crate::interrupt::EXIT_CODE),
@@ -149,6 +156,22 @@ fn abandon(universe: mpi::environment::Universe, done: Result<(), Error>) -> Res
     })
 }
 
+/// Bytes of the buffer that holds all results that a rank may have sent and that are not answered yet; `None` if
+/// that is more than MPI can count.
+fn buffer(largest: &Region, intensities: bool) -> Option<usize> {
+    let pixels = largest.columns.len().checked_mul(largest.rows.len())?;
+    let pixel = size_of::<Level>()
+        + if intensities {
+            size_of::<Intensity>()
+        } else {
+            0
+        };
+    let result = pixels.checked_mul(pixel)?.checked_add(size_of::<u32>())?;
+    // Twice as many as are in hand, as MPI may not have noticed yet that the answered ones are gone.
+    let bytes = (result + OVERHEAD).checked_mul(2 * IN_HAND)?;
+    i32::try_from(bytes).is_ok().then_some(bytes)
+}
+
 /// Hands what the first rank has to all others.
 fn broadcast<T: Serialize>(world: &SimpleCommunicator, value: Option<&T>) {
     // It fails only for types that postcard cannot write, and these it can.
@@ -171,7 +194,9 @@ fn receive_broadcast(world: &SimpleCommunicator) -> Vec<u8> {
 
 /// The next message from `source`, if one has come.
 fn arrived(source: &impl Source) -> Option<(Message, Status)> {
-    source.immediate_matched_probe()
+    // The first look may find nothing and only let MPI take in what has come: Open MPI looks first, then takes in.
+    let look = || source.immediate_matched_probe();
+    look().or_else(look)
 }
 
 fn pause() {

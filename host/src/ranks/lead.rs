@@ -1,6 +1,6 @@
 //! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
 
-use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, failed, pause};
+use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
 use crate::cost;
 use crate::deal::Deal;
 use crate::error::Error;
@@ -81,19 +81,28 @@ impl<'a> Leader<'a> {
             ..job.work
         };
         let packing = packing::choose(&*engine, &region, &work, interrupt)?;
+        let parts: Vec<_> = packing.shape.cut(&region).collect();
+        let intensities = job.output.holds_intensities();
+        if parts
+            .first()
+            .is_some_and(|part| buffer(part, intensities).is_none())
+        {
+            let shape = packing.shape;
+            let why = format!("packets of {shape} are too large to be sent: choose smaller ones");
+            return Err(failed(why));
+        }
         let plan = Plan {
             scene: Cow::Borrowed(scene),
             arith: job.arith,
             tree: job.tree,
             view: job.view,
             shape: packing.shape,
-            intensities: job.output.holds_intensities(),
+            intensities,
         };
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
         // As with threads, what comes before the dealing is neither idle nor the picture's.
         let (dealing, before) = (Instant::now(), scalar::saturations());
-        let parts: Vec<_> = packing.shape.cut(&region).collect();
         let count = parts.len();
         progress.start(count);
         let (counters, busy, mut messages, tallies) = {
@@ -139,7 +148,7 @@ impl<'a> Leader<'a> {
         Ok(trace::traced(
             built,
             picture,
-            &counters,
+            counters,
             saturations,
             times,
             work,

@@ -1,11 +1,14 @@
 //! What every rank but the first does: trace what it is told to.
 
-use super::{IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, failed, pause};
+use super::{
+    IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, buffer, failed, pause,
+};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::packets::Part;
+use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
-use mpi::topology::{Process, SimpleCommunicator};
+use mpi::topology::Process;
 use mpi::traits::{Communicator, Destination};
 use octray_core::packet::Region;
 use octray_core::scalar;
@@ -17,8 +20,9 @@ use std::time::{Duration, Instant};
 /// # Errors
 /// [`Error::Interrupted`] if it was, [`Error::Failed`] when there is no memory for the scene or messages make
 /// no sense.
-pub(super) fn serve(world: &SimpleCommunicator, interrupt: &Interrupt) -> Result<(), Error> {
-    let bytes = super::receive_broadcast(world);
+pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<(), Error> {
+    let world = universe.world();
+    let bytes = super::receive_broadcast(&world);
     let plan: Option<Plan<'_>> = postcard::from_bytes(&bytes)
         .map_err(|cause| failed(format!("the scene did not arrive whole: {cause}")))?;
     let Some(plan) = plan else {
@@ -28,6 +32,11 @@ pub(super) fn serve(world: &SimpleCommunicator, interrupt: &Interrupt) -> Result
     let engine = engine::build(&plan.scene, plan.arith, &plan.tree, &plan.view)?;
     let region = engine.built().region();
     let parts: Vec<_> = plan.shape.cut(&region).collect();
+    // The first rank has found out that there is such a buffer.
+    let size = parts
+        .first()
+        .map_or(Some(0), |part| buffer(part, plan.intensities));
+    universe.set_buffer_size(size.ok_or_else(|| failed("a packet is too large".into()))?);
     let leader = world.process_at_rank(0);
     let mut worker = engine.worker();
     let mut busy = Duration::ZERO;
@@ -48,7 +57,8 @@ pub(super) fn serve(world: &SimpleCommunicator, interrupt: &Interrupt) -> Result
         let begin = Instant::now();
         let message = trace(&mut *worker, index, part, plan.intensities);
         busy += begin.elapsed();
-        leader.send_with_tag(&message[..], RESULT);
+        // A plain send of more than some 256 bytes lasts until the first rank looks for messages.
+        leader.buffered_send_with_tag(&message[..], RESULT);
     }
     let saturations = scalar::saturations().wrapping_sub(before);
     let tally = Tally::new(worker.counters(), saturations, busy);
