@@ -19,7 +19,7 @@ use octray::interrupt::Interrupt;
 use octray::{check, output};
 use octray_core::packet::Region;
 use octray_engine as engine;
-use octray_engine::options::{Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_firmware_sim::dither::{Dithered, PanelColor};
 use octray_firmware_sim::render::{ROWS, Strips};
@@ -51,13 +51,7 @@ where
     output::probe(&job.output.path)?;
     let scene = check::read(&job.scene)?;
     let (width, height) = job.panel;
-    let tree = TreeOptions {
-        kind: Tree::Tight,
-        depth: None,
-        leaf_size: None,
-        arena: None,
-        link: Link::Shape,
-    };
+    let tree = TreeOptions::of(Tree::Tight);
     let view = ViewOptions {
         size: Some(job.panel),
         pixels_per_ray: PixelsPerRay::One,

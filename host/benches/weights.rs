@@ -15,7 +15,7 @@ use comfy_table::Table;
 use common::table::table;
 use octray::cost::{self, EVENTS, NAMES, WEIGHTS};
 use octray::packets::{Part, Shape};
-use octray_engine::options::{Arith, Link, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Worker};
 use octray_scenes::generate::{Kind, Spec, generate};
@@ -62,13 +62,7 @@ fn main() -> ExitCode {
 
 /// Traces all strips, each in a call of its own, and prints what is counted in them.
 fn trace() -> Result<(), Box<dyn Error>> {
-    let tree = TreeOptions {
-        kind: Tree::Tight,
-        depth: None,
-        leaf_size: None,
-        arena: None,
-        link: Link::Shape,
-    };
+    let tree = TreeOptions::of(Tree::Tight);
     let view = ViewOptions {
         size: Some((SIZE, SIZE)),
         pixels_per_ray: PixelsPerRay::One,
