@@ -19,7 +19,7 @@ use octray_scenes::plan::Plan;
 use std::num::NonZeroU32;
 
 /// How many events of a search there are.
-pub const OF_SEARCH: usize = 14;
+pub const OF_SEARCH: usize = 16;
 
 /// How many events of the rest there are.
 pub const OF_REST: usize = 8;
@@ -40,6 +40,8 @@ pub const NAMES: [&str; OF_SEARCH + OF_REST] = [
     "polygon met",
     "cone met",
     "box met",
+    "edge of a polygon",
+    "side of a cone",
     "pixel",
     "primary ray",
     "reflected or transmitted ray",
@@ -74,7 +76,8 @@ impl Events {
                 search.steps as f64,
                 search.children as f64,
             ]);
-            let detail = search.tests.iter().chain(&search.met);
+            let reached = [search.edges, search.sides];
+            let detail = (search.tests.iter()).chain(&search.met).chain(&reached);
             for (event, count) in events[4..].iter_mut().zip(detail) {
                 *event = *count as f64;
             }
