@@ -76,7 +76,9 @@ pub struct Searches {
     pub tests: [u64; 5],
     /// Those of them that met the object.
     pub met: [u64; 5],
-    /// Edges of polygons, triangles left out, that tests came to.
+    /// Outlines of polygons, triangles left out, that tests came to.
+    pub outlines: u64,
+    /// Those of their edges that were looked at.
     pub edges: u64,
     /// Sides of cones that tests came to.
     pub sides: u64,
@@ -86,6 +88,7 @@ impl Searches {
     fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.children += other.children;
+        self.outlines += other.outlines;
         self.edges += other.edges;
         self.sides += other.sides;
         for kind in 0..5 {
@@ -160,7 +163,9 @@ impl Observer for Counters {
     }
     #[inline(always)]
     fn edges(&mut self, count: usize) {
-        self.searches[self.search & 1].edges += count as u64;
+        let search = &mut self.searches[self.search & 1];
+        search.outlines += 1;
+        search.edges += count as u64;
     }
     #[inline(always)]
     fn side(&mut self) {

@@ -61,8 +61,8 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    /// Steps, children, tests, hits, edges and sides of [`octray_core::observe::Searches`].
-    searches: [(u64, u64, [u64; 5], [u64; 5], u64, u64); 2],
+    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::Searches`].
+    searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
     saturations: u32,
     /// Seconds in which it traced.
@@ -75,8 +75,18 @@ impl Tally {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            searches: (counters.searches)
-                .map(|s| (s.steps, s.children, s.tests, s.met, s.edges, s.sides)),
+            searches: counters.searches.map(|search| {
+                let Searches {
+                    steps,
+                    children,
+                    outlines,
+                    edges,
+                    sides,
+                    tests,
+                    met,
+                } = search;
+                ([steps, children, outlines, edges, sides], tests, met)
+            }),
             deepest: counters.deepest,
             saturations,
             busy: busy.as_secs_f64(),
@@ -88,13 +98,17 @@ impl Tally {
             rays: self.rays,
             blocked: self.blocked,
             hits: self.hits,
-            searches: (self.searches).map(|(steps, children, tests, met, edges, sides)| Searches {
-                steps,
-                children,
-                tests,
-                met,
-                edges,
-                sides,
+            searches: (self.searches).map(|(counts, tests, met)| {
+                let [steps, children, outlines, edges, sides] = counts;
+                Searches {
+                    steps,
+                    children,
+                    tests,
+                    met,
+                    outlines,
+                    edges,
+                    sides,
+                }
             }),
             deepest: self.deepest,
             search: 0,

@@ -19,7 +19,7 @@ use octray_scenes::plan::Plan;
 use std::num::NonZeroU32;
 
 /// How many events of a search there are.
-pub const OF_SEARCH: usize = 16;
+pub const OF_SEARCH: usize = 17;
 
 /// How many events of the rest there are.
 pub const OF_REST: usize = 8;
@@ -40,7 +40,8 @@ pub const NAMES: [&str; OF_SEARCH + OF_REST] = [
     "polygon met",
     "cone met",
     "box met",
-    "edge of a polygon",
+    "outline of a polygon",
+    "edge of an outline",
     "side of a cone",
     "pixel",
     "primary ray",
@@ -76,7 +77,7 @@ impl Events {
                 search.steps as f64,
                 search.children as f64,
             ]);
-            let reached = [search.edges, search.sides];
+            let reached = [search.outlines, search.edges, search.sides];
             let detail = (search.tests.iter()).chain(&search.met).chain(&reached);
             for (event, count) in events[4..].iter_mut().zip(detail) {
                 *event = *count as f64;
