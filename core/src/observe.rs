@@ -34,6 +34,13 @@ pub trait Observer {
     /// A ray was tested against an object of a kind, and met it or not.
     #[inline(always)]
     fn test(&mut self, _: Kind, _met: bool) {}
+    /// A test came to an outline, and to so many of its edges: the ray meets a polygon's plane in
+    /// the polygon's box, and nearer than the limit. Triangles do not tell.
+    #[inline(always)]
+    fn edges(&mut self, _: usize) {}
+    /// A test came to a cone's side: the ray meets the sphere around it.
+    #[inline(always)]
+    fn side(&mut self) {}
     /// This many rays wait on the stack.
     #[inline(always)]
     fn pending(&mut self, _: usize) {}
@@ -69,12 +76,21 @@ pub struct Searches {
     pub tests: [u64; 5],
     /// Those of them that met the object.
     pub met: [u64; 5],
+    /// Outlines of polygons, triangles left out, that tests came to.
+    pub outlines: u64,
+    /// Those of their edges that were looked at.
+    pub edges: u64,
+    /// Sides of cones that tests came to.
+    pub sides: u64,
 }
 
 impl Searches {
     fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.children += other.children;
+        self.outlines += other.outlines;
+        self.edges += other.edges;
+        self.sides += other.sides;
         for kind in 0..5 {
             self.tests[kind] += other.tests[kind];
             self.met[kind] += other.met[kind];
@@ -144,6 +160,16 @@ impl Observer for Counters {
         let search = &mut self.searches[self.search & 1];
         search.tests[kind as usize] += 1;
         search.met[kind as usize] += u64::from(met);
+    }
+    #[inline(always)]
+    fn edges(&mut self, count: usize) {
+        let search = &mut self.searches[self.search & 1];
+        search.outlines += 1;
+        search.edges += count as u64;
+    }
+    #[inline(always)]
+    fn side(&mut self) {
+        self.searches[self.search & 1].sides += 1;
     }
     #[inline(always)]
     fn pending(&mut self, count: usize) {

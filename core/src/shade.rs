@@ -96,7 +96,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
         let limit = distance - light.clearance - point.error;
         let last = blockers.get(i).copied().flatten();
         let still = last.filter(|&object| {
-            let blocks = scene.shapes.blocks(object, &ray, limit);
+            let blocks = scene.shapes.blocks(object, &ray, limit, observer);
             observer.test(object.kind(), blocks);
             blocks
         });

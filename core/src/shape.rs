@@ -17,6 +17,7 @@ pub use polygon::{Bands, Flat, Outlines, Patch, Polygon, Triangle};
 pub use sphere::Sphere;
 
 use crate::needs::{self, EVERYTHING, Needs};
+use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::{Vec3, vec3};
@@ -195,18 +196,25 @@ impl<S: Scalar, const NEEDS: Needs> Shapes<'_, S, NEEDS> {
         }
     }
 
-    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. On cores
+    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. The
+    /// observer is told how far the test goes, but not that there is one. On cores
     /// that emulate floats one copy is all there is: that costs nothing, since the trees' walks keep
     /// more in registers without it.
     #[cfg_attr(octray_soft_float, inline(never))]
     #[cfg_attr(not(octray_soft_float), inline(always))]
-    pub fn hit(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
+    pub fn hit<O: Observer>(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        limit: S,
+        observer: &mut O,
+    ) -> Option<S> {
         let i = object.index();
         match object.kind() {
             Kind::Sphere => self.sphere(i)?.hit(ray, limit, self.slack),
             Kind::Triangle => self.triangle(i)?.hit(ray, limit),
-            Kind::Polygon => self.polygon(i)?.hit(ray, limit, &self.outlines()),
-            Kind::Cone => self.cone(i)?.hit(ray, limit),
+            Kind::Polygon => self.polygon(i)?.hit(ray, limit, &self.outlines(), observer),
+            Kind::Cone => self.cone(i)?.hit(ray, limit, observer),
             Kind::Cuboid => self.cuboid(i)?.hit(ray, limit, self.slack),
         }
     }
@@ -214,8 +222,14 @@ impl<S: Scalar, const NEEDS: Needs> Shapes<'_, S, NEEDS> {
     /// Whether `ray` meets the object at 0 < t ≤ `limit`: [`Shapes::hit`], once more in the code
     /// for where it is not the innermost loop.
     #[inline(never)]
-    pub fn blocks(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> bool {
-        self.hit(object, ray, limit).is_some()
+    pub fn blocks<O: Observer>(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        limit: S,
+        observer: &mut O,
+    ) -> bool {
+        self.hit(object, ray, limit, observer).is_some()
     }
 
     /// The box that every hit of the object lies in.

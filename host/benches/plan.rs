@@ -15,6 +15,7 @@ use octray::measure::reference::View;
 use octray::measure::report::Report;
 use octray::measure::row::{COLUMNS, Row};
 use octray::output;
+use octray::plan::comb::comb;
 use octray::plan::fit;
 use octray::plan::model::Model;
 use octray::plan::record::{self, SEED, Sample};
@@ -54,6 +55,9 @@ const MANY: usize = 60;
 
 /// Objects of generated scenes with and without a tree.
 const TWELVE: usize = 12;
+
+/// Teeth of combs.
+const TEETH: [u32; 2] = [12, 60];
 
 /// Measure, and fit the model of `octray plan`
 #[derive(Debug, Parser)]
@@ -130,7 +134,15 @@ fn measure(
         names.iter().map(path).collect()
     };
     let twelve = generated(TWELVE)?;
-    let with = [shipped(&SCENES), generated(MANY)?, twelve.clone()].concat();
+    let combs = TEETH
+        .into_iter()
+        .map(|teeth| -> Result<PathBuf, Box<dyn Error>> {
+            let path = folder.path().join(format!("comb-{teeth}.scene"));
+            octray_scenes::write(&comb(teeth)?, &mut File::create(&path)?)?;
+            Ok(path)
+        });
+    let combs = combs.collect::<Result<Vec<_>, _>>()?;
+    let with = [shipped(&SCENES), generated(MANY)?, twelve.clone(), combs].concat();
     let without = [shipped(&FEW), twelve].concat();
     let boards: Result<Vec<Vec<&Board>>, _> =
         boards.iter().map(|name| board::named(name)).collect();

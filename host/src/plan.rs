@@ -9,6 +9,7 @@
 
 pub mod accuracy;
 pub mod choice;
+pub mod comb;
 pub mod events;
 pub mod fit;
 pub mod job;

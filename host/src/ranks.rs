@@ -68,8 +68,8 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    /// Steps, children, tests and hits of [`octray_core::observe::Searches`].
-    searches: [(u64, u64, [u64; 5], [u64; 5]); 2],
+    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::Searches`].
+    searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
     saturations: u32,
     /// Seconds in which it traced.
@@ -82,9 +82,18 @@ impl Tally {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            searches: counters
-                .searches
-                .map(|search| (search.steps, search.children, search.tests, search.met)),
+            searches: counters.searches.map(|search| {
+                let Searches {
+                    steps,
+                    children,
+                    outlines,
+                    edges,
+                    sides,
+                    tests,
+                    met,
+                } = search;
+                ([steps, children, outlines, edges, sides], tests, met)
+            }),
             deepest: counters.deepest,
             saturations,
             busy: busy.as_secs_f64(),
@@ -96,11 +105,17 @@ impl Tally {
             rays: self.rays,
             blocked: self.blocked,
             hits: self.hits,
-            searches: self.searches.map(|(steps, children, tests, met)| Searches {
-                steps,
-                children,
-                tests,
-                met,
+            searches: (self.searches).map(|(counts, tests, met)| {
+                let [steps, children, outlines, edges, sides] = counts;
+                Searches {
+                    steps,
+                    children,
+                    tests,
+                    met,
+                    outlines,
+                    edges,
+                    sides,
+                }
             }),
             deepest: self.deepest,
             search: 0,

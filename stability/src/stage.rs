@@ -116,6 +116,6 @@ pub fn hit<S: Number>(
     ray: &Ray<S>,
     limit: S,
 ) -> Option<(S, Vec3<S>)> {
-    let t = shapes.hit(only(kind), ray, limit)?;
+    let t = shapes.hit(only(kind), ray, limit, &mut ())?;
     Some((t, shapes.contact(only(kind), ray, t).outward))
 }

@@ -340,7 +340,7 @@ fn meets<S: Quantize, A: Accelerator<S>>(
     let scene = scene.scene();
     let found = tree.any_hit(&scene, ray, limit, &mut A::Stack::default(), &mut ());
     if let Some(object) = found {
-        assert!(scene.shapes.hit(object, ray, limit).is_some());
+        assert!(scene.shapes.hit(object, ray, limit, &mut ()).is_some());
     }
     found.is_some()
 }

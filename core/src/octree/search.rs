@@ -39,7 +39,8 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
     #[inline(always)]
     pub(super) fn list(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
-            let hit = self.scene.shapes.hit(object, self.ray, self.limit);
+            let shapes = &self.scene.shapes;
+            let hit = shapes.hit(object, self.ray, self.limit, self.observer);
             self.observer.test(object.kind(), hit.is_some());
             if let Some(t) = hit {
                 if ANY {

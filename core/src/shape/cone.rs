@@ -1,6 +1,7 @@
 //! The truncated cone, the cylinder included: its side surface, without caps.
 
 use super::Contact;
+use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
@@ -36,7 +37,7 @@ impl<S: Scalar> Cone<S> {
     /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale:
     /// from a distant origin it would cancel.
     #[inline(always)]
-    pub(super) fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
+    pub(super) fn hit<O: Observer>(&self, ray: &Ray<S>, limit: S, observer: &mut O) -> Option<S> {
         let d = ray.direction;
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(d);
@@ -44,6 +45,7 @@ impl<S: Scalar> Cone<S> {
         if apart.square_wide() > self.reach.square() {
             return None;
         }
+        observer.side();
         let w = apart.map(|c| c.to_local(self.exponent));
 
         let rise = d.dot(self.axis);

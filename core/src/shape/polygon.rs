@@ -2,6 +2,7 @@
 //! patches.
 
 use super::Contact;
+use crate::observe::Observer;
 use crate::ray::{Bounds, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::{Axis, Vec3};
@@ -207,7 +208,13 @@ pub struct Outlines<'a, S> {
 
 impl<S: Scalar> Polygon<S> {
     #[inline(always)]
-    pub(super) fn hit(&self, ray: &Ray<S>, limit: S, outlines: &Outlines<'_, S>) -> Option<S> {
+    pub(super) fn hit<O: Observer>(
+        &self,
+        ray: &Ray<S>,
+        limit: S,
+        outlines: &Outlines<'_, S>,
+        observer: &mut O,
+    ) -> Option<S> {
         let t = self.plane.hit(ray, limit)?;
         let point = ray.at(t);
         if !self.bounds.contains(point) {
@@ -215,11 +222,14 @@ impl<S: Scalar> Polygon<S> {
         }
         let p = self.plane.project(point);
         let inside = if self.bands.count == 0 {
-            encloses(self.corners(outlines.corners)?, p)
+            let corners = self.corners(outlines.corners)?;
+            observer.edges(corners.len());
+            encloses(corners, p)
         } else {
             let band = (self.bands.first + self.bands.of(p[1])) as usize;
             let (start, end) = (outlines.bands.get(band)?, outlines.bands.get(band + 1)?);
             let edges = outlines.edges.get(*start as usize..*end as usize)?;
+            observer.edges(edges.len());
             edges
                 .iter()
                 .fold(false, |odd, edge| odd ^ crosses_upward(*edge, p))

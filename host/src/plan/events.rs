@@ -19,10 +19,10 @@ use octray_scenes::plan::Plan;
 use std::num::NonZeroU32;
 
 /// How many events of a search there are.
-pub const OF_SEARCH: usize = 14;
+pub const OF_SEARCH: usize = 17;
 
 /// How many events of the rest there are.
-pub const OF_REST: usize = 8;
+pub const OF_REST: usize = 7;
 
 /// Their names, in the order of [`Events::search`] and [`Events::rest`].
 pub const NAMES: [&str; OF_SEARCH + OF_REST] = [
@@ -40,7 +40,9 @@ pub const NAMES: [&str; OF_SEARCH + OF_REST] = [
     "polygon met",
     "cone met",
     "box met",
-    "pixel",
+    "outline of a polygon",
+    "edge of an outline",
+    "side of a cone",
     "primary ray",
     "reflected or transmitted ray",
     "hit",
@@ -60,8 +62,9 @@ pub struct Events {
 }
 
 impl Events {
-    /// Of a frame of so many pixels and lights.
-    pub fn new(counters: &Counters, pixels: u64, lights: usize) -> Self {
+    /// Of a frame with so many lights. Pixels that no ray is for are no event: they cost next to nothing, and in
+    /// measured frames there are about as many pixels as primary rays, so what a pixel costs could not be told.
+    pub fn new(counters: &Counters, lights: usize) -> Self {
         let rays = |kind| counters.rays_of(kind) as f64;
         let shadow = rays(RayKind::Shadow);
         let [primary, reflected, transmitted] =
@@ -74,7 +77,8 @@ impl Events {
                 search.steps as f64,
                 search.children as f64,
             ]);
-            let detail = search.tests.iter().chain(&search.met);
+            let reached = [search.outlines, search.edges, search.sides];
+            let detail = (search.tests.iter()).chain(&search.met).chain(&reached);
             for (event, count) in events[4..].iter_mut().zip(detail) {
                 *event = *count as f64;
             }
@@ -91,7 +95,6 @@ impl Events {
                 search(blocking, 0.0, shadow),
             ],
             rest: [
-                pixels as f64,
                 primary,
                 reflected + transmitted,
                 hits,
@@ -172,10 +175,9 @@ impl Probe {
         let traced = trace::render(engine, &work, false, &progress, interrupt)?;
         let (picture, counters, _, saturations) = traced;
         let built = engine.built();
-        let pixels = u64::from(built.size.0) * u64::from(built.size.1);
         Ok(Self {
             picture,
-            events: Events::new(&counters, pixels, scene.lights.len()),
+            events: Events::new(&counters, scene.lights.len()),
             waiting: counters.deepest as usize,
             saturations,
             too_fine: built.too_fine.clone(),

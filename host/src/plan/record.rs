@@ -1,5 +1,6 @@
 //! What was measured for the model: lines of `octray measure --csv`, and the scenes they name.
 
+use super::comb::comb;
 use super::events::{Events, Probe};
 use super::model::{Family, Parts, Weights};
 use crate::check;
@@ -23,7 +24,7 @@ pub const SEED: u64 = 7;
 /// A line of the record.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Line {
-    /// A file of `scenes/`, or a kind and a number of objects such as `soup-60`.
+    /// A file of `scenes/`, or a kind and a number of objects such as `soup-60`, or `comb` and a number of teeth.
     pub scene: String,
     /// Columns.
     pub width: u32,
@@ -143,6 +144,13 @@ pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(),
 /// # Errors
 /// If there is none.
 pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
+    let broken = |why: String| Error::Failed(format!("the record of measurements: {name}: {why}"));
+    if let Some(teeth) = name.strip_prefix("comb-") {
+        let teeth = teeth
+            .parse()
+            .map_err(|_| broken("a number of teeth is missing".into()))?;
+        return comb(teeth);
+    }
     let generated = name.split_once('-').and_then(|(kind, objects)| {
         let kind = Kind::ALL.into_iter().find(|known| known.name() == kind)?;
         let objects = objects.parse().ok()?;

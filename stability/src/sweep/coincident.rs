@@ -147,7 +147,7 @@ fn shipped<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
 fn last<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
     let (shapes, mut limit, mut found) = (prepared.scene.shapes(), prepared.scene.reach, None);
     for object in shapes.refs() {
-        if let Some(t) = shapes.hit(object, ray, limit) {
+        if let Some(t) = shapes.hit(object, ray, limit, &mut ()) {
             (limit, found) = (t, Some(object.index() as u32));
         }
     }

@@ -133,14 +133,14 @@ fn shipped<S: Number>(
     let shapes = prepared.scene.shapes();
     let [from, next] = [0, 1].map(|i| ObjectRef::new(kind, i));
     let ray = number::ray(prepared.placement.point(eye), towards);
-    let t = shapes.hit(from, &ray, prepared.scene.reach)?;
+    let t = shapes.hit(from, &ray, prepared.scene.reach, &mut ())?;
     let hit = Hit { t, object: from };
     let seen = spy::leaving(shapes, spy::mirror(), &ray, hit);
     let leaving = Ray {
         origin: seen.follow.first()?.origin,
         direction: away,
     };
-    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.reach);
+    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.reach, &mut ());
     Some([meets(from), meets(next)])
 }
 

@@ -274,7 +274,7 @@ impl<S: Number> Grid<S> {
             let first = ids
                 .iter()
                 .filter_map(|&id| {
-                    let hit = shapes.hit(ObjectRef::new(Kind::Sphere, id), ray, t)?;
+                    let hit = shapes.hit(ObjectRef::new(Kind::Sphere, id), ray, t, &mut ())?;
                     Some((hit, id))
                 })
                 .reduce(|a, b| if b.0 < a.0 { b } else { a });

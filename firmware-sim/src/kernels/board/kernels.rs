@@ -89,7 +89,7 @@ pub(super) fn kernel_box(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
 
 #[inline(always)]
 fn hit(shapes: &Shapes, kind: Kind, i: usize, ray: &Ray<S>) -> Option<S> {
-    shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.reach)
+    shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.reach, &mut ())
 }
 
 /// A search from end to end. The barrier, and the other's, keep the two from being one function.
@@ -148,7 +148,7 @@ impl Accelerator<S, NEEDS> for Alone {
         (): &mut (),
         _: &mut O,
     ) -> Option<Hit<S>> {
-        let t = scene.shapes.hit(self.0, ray, scene.reach)?;
+        let t = scene.shapes.hit(self.0, ray, scene.reach, &mut ())?;
         Some(Hit { t, object: self.0 })
     }
 
