@@ -179,3 +179,21 @@ fn sight(exact: &dyn Engine, engine: &dyn Engine, samples: u32) -> Sight {
         depth,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_pictures_lie_above_those_that_differ_least() {
+        let differing = |squares| Difference {
+            pixels: 256,
+            squares,
+            largest: u8::from(squares > 0),
+            beyond_1: 0,
+            beyond_8: 0,
+        };
+        let [equal, least, more] = [0, 1, 2].map(|squares| decibels(&differing(squares)));
+        assert!(equal.is_finite() && equal > least + 3.0 && least > more);
+    }
+}
