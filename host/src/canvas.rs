@@ -1,5 +1,7 @@
 //! What charts and maps are drawn on: SVG or pixels, with the only font there is.
 
+mod widths;
+
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -28,7 +30,7 @@ pub trait Figure {
     fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B>;
 }
 
-/// The figure as SVG.
+/// The figure as SVG. Where it is shown with another font, its texts keep their [`widths`].
 ///
 /// # Errors
 /// When it cannot be drawn.
@@ -36,7 +38,7 @@ pub fn svg(figure: &impl Figure) -> Result<String, Error> {
     let mut text = String::new();
     let backend = SVGBackend::with_string(&mut text, figure.size());
     draw(&backend.into_drawing_area(), figure)?;
-    Ok(text)
+    Ok(widths::held(&text))
 }
 
 /// The figure in pixels.

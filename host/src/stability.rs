@@ -2,9 +2,9 @@
 
 mod data;
 pub(crate) mod map;
-mod overview;
-mod queries;
-mod table;
+pub(crate) mod overview;
+pub(crate) mod queries;
+pub(crate) mod table;
 
 use crate::canvas;
 use crate::error::Error;

@@ -50,10 +50,11 @@ fn one_page_shows_everything_and_is_the_same_twice() {
     let page = report(folder.path(), "a.html");
     for expected in [
         "<strong>i16f16</strong>",
-        "octray chart 'a b.scene' 'deep/a b.scene'",
-        "--cost events --size 16x12 -o events.svg",
+        "octray chart 'a b.scene' --arith i16f16,f32 --tree packed --cost events --size 16x12 -o 'a b-events.svg'",
+        "octray chart 'deep/a b.scene' --arith",
         "Table III",
         "Where methods fail",
+        "Holds: at most 0 % wrong decisions",
         "prefers-color-scheme: dark",
     ] {
         assert!(page.contains(expected), "{expected}");
@@ -62,6 +63,7 @@ fn one_page_shows_everything_and_is_the_same_twice() {
     every_part_is_found(&page);
     if cfg!(unix) {
         the_commands_give_the_pictures(&page, folder.path());
+        the_command_gives_the_chart(&page, folder.path());
     }
     assert!(page == report(folder.path(), "b.html"));
 }
@@ -90,24 +92,40 @@ fn every_part_is_found(page: &str) {
     assert_eq!(links, expected.map(|id| format!("#{id}")));
 }
 
-/// What a shell makes of them is shown in the page to the byte.
-fn the_commands_give_the_pictures(page: &str, folder: &Path) {
+/// Runs commands in a shell that finds octray.
+fn sh(folder: &Path, commands: &str) {
     let program = cargo_bin!("octray").parent().unwrap().to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let paths = std::iter::once(program).chain(std::env::split_paths(&path));
     let ran = Command::new("sh")
         .current_dir(folder)
         .env("PATH", std::env::join_paths(paths).unwrap())
-        .args(["-e", "-c", commands(page)])
+        .args(["-e", "-c", commands])
         .output()
         .unwrap();
     let told = String::from_utf8_lossy(&ran.stderr);
-    assert!(ran.status.success(), "{told}\n{}", commands(page));
+    assert!(ran.status.success(), "{told}\n{commands}");
+}
+
+/// What a shell makes of them is shown in the page to the byte.
+fn the_commands_give_the_pictures(page: &str, folder: &Path) {
+    sh(folder, commands(page));
     for name in ["i16f16", "f32", "i16f16-difference", "f32-difference"] {
         let file = fs::read(folder.join(format!("a b-{name}.png"))).unwrap();
         let shown = BASE64_STANDARD.encode(file);
         assert!(page.contains(&shown), "{name}");
     }
+}
+
+/// The chart of the first scene is shown as its command draws it.
+fn the_command_gives_the_chart(page: &str, folder: &Path) {
+    let section = between(page, "id=\"costs\"", "</section>").next().unwrap();
+    let command = (between(section, "<code>", "</code>"))
+        .find(|command| command.starts_with("octray chart"))
+        .unwrap();
+    sh(folder, command);
+    let svg = fs::read_to_string(folder.join("a b-events.svg")).unwrap();
+    assert!(section.contains(&svg), "{command}");
 }
 
 #[test]

@@ -35,14 +35,17 @@ pub struct Sight {
     pub depth: f64,
 }
 
-/// The PSNR of a picture in dB; equal pictures count as if one channel of one pixel differed by one level,
-/// which is the most that is finite.
+/// The PSNR of a picture in dB. Equal pictures count as if they differed half as much as pictures can differ
+/// at least, by one level in one channel of one pixel: that is finite, and above all that are not equal.
 pub fn decibels(difference: &Difference) -> f64 {
+    if !difference.is_zero() {
+        return difference.psnr();
+    }
     let least = Difference {
         squares: 1,
         ..*difference
     };
-    difference.psnr().min(least.psnr())
+    least.psnr() + 20.0 * 2f64.log10()
 }
 
 /// Judges pictures of one scene, and keeps what it judges them by.
@@ -174,5 +177,23 @@ fn sight(exact: &dyn Engine, engine: &dyn Engine, samples: u32) -> Sight {
     Sight {
         other: others as f64 / blocks as f64,
         depth,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_pictures_lie_above_those_that_differ_least() {
+        let differing = |squares| Difference {
+            pixels: 256,
+            squares,
+            largest: u8::from(squares > 0),
+            beyond_1: 0,
+            beyond_8: 0,
+        };
+        let [equal, least, more] = [0, 1, 2].map(|squares| decibels(&differing(squares)));
+        assert!(equal.is_finite() && equal > least + 3.0 && least > more);
     }
 }

@@ -26,6 +26,9 @@ const FAINT: RGBColor = RGBColor(105, 105, 105);
 const WISH: RGBColor = RGBColor(150, 150, 150);
 const FRONTIER: RGBColor = RGBColor(30, 90, 170);
 
+/// Told of the line on which pictures equal what accuracy is relative to.
+const EQUAL: &str = "equal pictures";
+
 /// The chart of some panels, one below the other.
 #[derive(Debug)]
 pub struct Chart<'a> {
@@ -210,18 +213,19 @@ impl<'a> Plot<'a> {
             let x = self.cost.pixel(budget);
             dashes(area, (x, top), (x, bottom), WISH)?;
         }
-        let equal = self
-            .panel
-            .points
-            .iter()
-            .find(|point| self.panel.difference(point).is_zero());
-        if let Some(point) = equal {
-            let y = self.spot(point).1;
+        if let Some(y) = self.equal() {
             dashes(area, (left, y), (right, y), GRID)?;
             let place = (left + 6, y - 15);
-            write_in(area, "equal pictures", place, 12, HPos::Left, FAINT)?;
+            write_in(area, EQUAL, place, 12, HPos::Left, FAINT)?;
         }
         Ok(())
+    }
+
+    /// Where pictures are equal, if one is.
+    fn equal(&self) -> Option<i32> {
+        let mut points = self.panel.points.iter();
+        let equal = points.find(|point| self.panel.difference(point).is_zero())?;
+        Some(self.spot(equal).1)
     }
 
     /// The border of what some point dominates, as steps from the dearest point to the cheapest.
@@ -261,8 +265,18 @@ impl<'a> Plot<'a> {
             right: pair[0].0.max(pair[1].0) + 1,
             bottom: pair[0].1.max(pair[1].1) + 1,
         });
-        let lines: Vec<_> = lines.collect();
-        Ok(label::place(&spots, &sizes, self.frame, &lines))
+        let mut avoid: Vec<_> = lines.collect();
+        if let Some(y) = self.equal() {
+            let (left, style) = (self.frame.left, ("sans-serif", 12).into_text_style(area));
+            let (width, _) = area.estimate_text_size(EQUAL, &style)?;
+            avoid.push(Rect {
+                left,
+                top: y - 17,
+                right: left + 8 + width as i32,
+                bottom: y,
+            });
+        }
+        Ok(label::place(&spots, &sizes, self.frame, &avoid))
     }
 
     fn point<B: DrawingBackend>(

@@ -28,6 +28,9 @@ pub const MARKER: i32 = 8;
 /// How far a label may be from its marker before a line has to lead to it.
 const NEAR: i32 = 5;
 
+/// How much farther away a label had better be than struck through by a line.
+const STRUCK: i32 = 200;
+
 /// The directions to try, in the order in which a reader likes them: right, left, above, below, corners.
 const DIRECTIONS: [(f64, f64); 16] = [
     (1.0, 0.0),
@@ -156,7 +159,8 @@ impl Surroundings<'_> {
             }
         }
         let met = self.avoid.iter().filter(|rect| rect.meets(place)).count();
-        badness + 60 * met as i32
+        // A label that is struck through is hard to read: it had better be as many pixels away.
+        badness + STRUCK / 2 * met as i32
     }
 }
 

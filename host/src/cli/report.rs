@@ -44,7 +44,8 @@ pub struct ReportArgs {
     threads: Option<NonZeroUsize>,
 }
 
-const ARITHS: &str = "f64,f32,approx2,approx1,approx0,auto,i12f20,i16f16,i20f12,i24f8";
+const ARITHS: &str =
+    "f64,f32,approx2,approx1,approx0,i32f32,i4f28,i8f24,i12f20,i16f16,i20f12,i24f8";
 
 impl ReportArgs {
     /// The job that these arguments ask for: nothing in it twice.

@@ -45,7 +45,7 @@ pub struct StabilityArgs {
 }
 
 impl StabilityArgs {
-    /// The job that these arguments ask for.
+    /// The job that these arguments ask for: nothing in it twice.
     ///
     /// # Errors
     /// [`Error::Usage`] if two results are one file.
@@ -56,10 +56,10 @@ impl StabilityArgs {
             methods: if self.methods.is_empty() {
                 sweep::ALL.to_vec()
             } else {
-                self.methods
+                value::once(self.methods, |a, b| a.about.name == b.about.name)
             },
             folder: self.output,
-            overview: self.limits,
+            overview: (self.limits).map(|numbers| value::once(numbers, |a, b| a == b)),
             json: self.json,
             csv: self.csv,
             threads: self.threads.unwrap_or_else(|| {

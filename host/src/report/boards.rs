@@ -24,7 +24,8 @@ pub(super) fn sections() -> Result<Vec<Section>, Error> {
         title: "Table III, today: without and with a floating-point unit".into(),
         body: html! {
             (page::chart(record::CHART, "instructions per pixel without and with a floating-point unit"))
-            pre { (text::of(&three)) }
+            pre { (text::grid(&three)) }
+            ul { @for note in text::notes(&three) { li { (note) } } }
         },
         commands: vec![
             "octray tables III".into(),
@@ -35,14 +36,19 @@ pub(super) fn sections() -> Result<Vec<Section>, Error> {
         id: "sizes".into(),
         title: "What programs need on small targets".into(),
         body: html! {
-            p { "Instructions per pixel, bytes, and decibels against 64-bit floats, from " (measured) "." }
-            (table(&HEAD.map(String::from), &rows.iter().map(cells).collect::<Vec<_>>()))
+            p {
+                "Instructions per pixel; bytes of flash, of RAM without the stack, and of the stack; and decibels "
+                "against 64-bit floats, from " (measured) "."
+            }
+            (table(&HEAD, WORDS, &rows.iter().map(cells).collect::<Vec<_>>()))
         },
         commands: vec!["octray measure --arith f32,approx2,auto".into()],
     };
     Ok(vec![units, sizes])
 }
 
+/// The columns that hold words come first.
+const WORDS: usize = 3;
 const HEAD: [&str; 8] = [
     "scene",
     "board",

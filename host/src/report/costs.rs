@@ -1,8 +1,8 @@
 //! Speed against accuracy: the charts, and what they choose.
 
-use super::page::{self, Section, table};
+use super::page::{self, Section};
 use crate::canvas;
-use crate::chart::cost::{CostKind, Meter};
+use crate::chart::cost::Meter;
 use crate::chart::figure::Chart;
 use crate::chart::point::Panel;
 use crate::chart::{self, ChartJob};
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::measure::frames::Named;
 use maud::{Markup, html};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The section. Where costs cannot be counted it says why.
 ///
@@ -35,7 +35,7 @@ pub(super) fn section(
             }),
             Ok(panels) => {
                 for panel in &panels {
-                    parts.push(of_panel(panel)?);
+                    parts.push(of_panel(panel, job)?);
                 }
             }
         }
@@ -46,47 +46,57 @@ pub(super) fn section(
         body: html! {
             p {
                 "Up is more accurate, right is cheaper; the line joins the settings that no other one beats in both. "
-                "Under each chart stand its choices, and the command of each."
+                "Under each chart stand its choices, each with its command, and the command that draws it again."
             }
             @for part in &parts { (part) }
         },
-        commands: job.costs.iter().map(|cost| command(job, *cost)).collect(),
+        // One for each chart: those of many scenes at once would be more than a chart may have.
+        commands: Vec::new(),
     })
 }
 
-/// What draws the charts of one kind of cost.
-fn command(job: &ChartJob, cost: CostKind) -> String {
-    let list = |names: Vec<&str>| names.join(",");
-    let scenes: String = (job.scenes.iter())
-        .map(|path| format!(" {}", page::quoted(path)))
-        .collect();
-    let (width, height) = job.size;
-    let cost = cost.name();
-    format!(
-        "octray chart{scenes} --arith {} --tree {} --cost {cost} --size {width}x{height} -o {cost}.svg",
-        list(job.grid.ariths.iter().map(|arith| arith.name()).collect()),
-        list(job.grid.trees.iter().map(|tree| tree.name()).collect()),
-    )
-}
-
-fn of_panel(panel: &Panel) -> Result<Markup, Error> {
+/// A chart, what it chooses, and what draws it.
+fn of_panel(panel: &Panel, job: &ChartJob) -> Result<Markup, Error> {
     let says = format!("{}: {}", panel.scene, panel.kind.words());
     let svg = canvas::svg(&Chart::of(std::slice::from_ref(panel)))?;
-    let head = ["choice", "setting", "command"].map(String::from);
-    let rows: Vec<_> = (panel.choices.iter())
-        .map(|choice| {
-            let point = choice.point.map(|i| &panel.points[i]);
-            let label = point.map_or("none".into(), |point| point.label.clone());
-            let command = point.map(|point| panel.command(&point.setting));
-            vec![choice.name.clone(), label, command.unwrap_or_default()]
-        })
-        .collect();
+    let choices = panel.choices.iter().map(|choice| {
+        let point = choice.point.map(|i| &panel.points[i]);
+        html! {
+            p { (choice.name) ": " strong { (point.map_or("none", |point| &point.label)) } }
+            @if let Some(point) = point {
+                pre { code { (counted(panel, panel.command(&point.setting))) } }
+            }
+        }
+    });
     Ok(html! {
         h3 { (says) }
         (page::chart(&svg, &says))
-        (table(&head, &rows))
-        @if let Some(counting) = panel.counting() {
-            p { "Instructions are counted by " code { (counting) } " before such a command." }
+        @for refused in &panel.refused {
+            p { "No point for " (refused.label) ": " (refused.why) }
         }
+        @for choice in choices { (choice) }
+        (page::commands(&[command(panel, job)]))
     })
+}
+
+/// A command, so that it tells the cost too.
+fn counted(panel: &Panel, command: String) -> String {
+    match panel.counting() {
+        Some(counting) => format!("{counting} {command}"),
+        None => command,
+    }
+}
+
+/// What draws a chart.
+fn command(panel: &Panel, job: &ChartJob) -> String {
+    let list = |names: Vec<&str>| names.join(",");
+    let scene = page::quoted(&panel.path);
+    let cost = panel.kind.name();
+    let (width, height) = job.size;
+    let file = page::quoted(Path::new(&format!("{}-{cost}.svg", panel.scene)));
+    format!(
+        "octray chart {scene} --arith {} --tree {} --cost {cost} --size {width}x{height} -o {file}",
+        list(job.grid.ariths.iter().map(|arith| arith.name()).collect()),
+        list(job.grid.trees.iter().map(|tree| tree.name()).collect()),
+    )
 }

@@ -31,12 +31,12 @@ pub(super) fn of(sections: &[Section]) -> Markup {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { "octray: speed against accuracy" }
+                title { "octray: what speed costs in accuracy" }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header {
-                    h1 { "Speed against accuracy" }
+                    h1 { "What speed costs in accuracy" }
                     p {
                         "What rendering takes in every arithmetic, where each method fails, and what small targets "
                         "need. Made by octray " (env!("CARGO_PKG_VERSION")) "; under each part stands the command "
@@ -63,7 +63,7 @@ pub(super) fn of(sections: &[Section]) -> Markup {
 }
 
 /// Commands as they are typed.
-fn commands(commands: &[String]) -> Markup {
+pub(super) fn commands(commands: &[String]) -> Markup {
     html! {
         @if !commands.is_empty() {
             pre.command { code { (commands.join("\n")) } }
@@ -91,19 +91,16 @@ pub(super) fn chart(svg: &str, says: &str) -> Markup {
     }
 }
 
-/// A table: numbers to the right, words to the left.
-pub(super) fn table(head: &[String], rows: &[Vec<String>]) -> Markup {
-    let class = |cell: &str| {
-        let digit = |c: char| c.is_ascii_digit() || c == '–';
-        (cell.chars().next().is_some_and(digit)).then_some("number")
-    };
+/// A table whose first columns hold words, to the left, and the others numbers, to the right.
+pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup {
+    let class = |column: usize| (column >= words).then_some("number");
     html! {
         div.wide {
             table {
-                thead { tr { @for name in head { th scope="col" { (name) } } } }
+                thead { tr { @for (i, name) in head.iter().enumerate() { th scope="col" class=[class(i)] { (name) } } } }
                 tbody {
                     @for row in rows {
-                        tr { @for cell in row { td class=[class(cell)] { (cell) } } }
+                        tr { @for (i, cell) in row.iter().enumerate() { td class=[class(i)] { (cell) } } }
                     }
                 }
             }

@@ -3,6 +3,7 @@
 use super::ReportJob;
 use super::page::{self, Section, quoted};
 use crate::error::Error;
+use crate::facts::thousands;
 use crate::heat;
 use crate::interrupt::Interrupt;
 use crate::measure::frames::Named;
@@ -60,7 +61,8 @@ pub(super) fn section(
         body: html! {
             p {
                 "Left the picture, right where it differs from the one in 64-bit floats: dim grey where it is equal, "
-                "from violet to yellow the larger the difference. " (width) " × " (height) " pixels."
+                "from violet (1 level) over red to yellow (255 levels) the larger the difference is. "
+                (width) " × " (height) " pixels."
             }
             div.pictures { @for figure in &figures { (figure) } }
         },
@@ -102,8 +104,9 @@ fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error
     let says = match difference.is_zero() {
         true => "equal to f64".into(),
         false => format!(
-            "{:.1} dB, {share:.2} % of pixels off by more than 1 level",
-            difference.psnr()
+            "{:.1} dB, {} pixels ({share:.2} %) off by more than 1 level",
+            difference.psnr(),
+            thousands(difference.beyond_1)
         ),
     };
     let map = heat::map(&exact.picture, &traced.picture)?;

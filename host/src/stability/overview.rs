@@ -8,7 +8,7 @@ use octray_stability::tally::State;
 
 /// A line for each method and form: to which value it holds, and beyond which it breaks, in some
 /// arithmetics by their numbers; for what octray ships also to which value it is admitted.
-pub(super) fn of(survey: &Survey, arithmetics: &[usize]) -> String {
+pub(crate) fn of(survey: &Survey, arithmetics: &[usize]) -> String {
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN);
     let mut head = vec!["method".into(), "swept".into(), "form".into()];

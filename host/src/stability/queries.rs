@@ -19,11 +19,11 @@ const FALSE_OUT: RGBColor = RGBColor(8, 69, 148);
 
 /// The plane around the star, a panel for each form. A false in is a pale ring, a false out a dark
 /// disc: they can be told apart without their colours.
-pub(super) struct Queries(Vec<Answer>);
+pub(crate) struct Queries(Vec<Answer>);
 
 impl Queries {
     /// In 32-bit floats, which hold the star and all points exactly.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(square::<f32>())
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn of(outcome: &Outcome) -> String {
 }
 
 /// What holds and what degrades, in words.
-fn bounds(about: &About) -> (String, String) {
+pub(crate) fn bounds(about: &About) -> (String, String) {
     let bounds = &about.bounds;
     let percent = |x: f64| format!("{} % wrong decisions", x * 100.0);
     let side = |x: f64| format!("{} % on the wrong side", x * 100.0);

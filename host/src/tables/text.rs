@@ -8,8 +8,26 @@ use std::fmt::Write;
 /// What is told of what is not known.
 const UNKNOWN: &str = "not at hand";
 
-/// The table, and below it what is to be said of it.
+/// The table under its title, and below it what is to be said of it.
 pub fn of(table: &Table) -> String {
+    let title = format!("Table {}: {}", table.table.name(), table.title);
+    let mut text = format!("{title}\n\n{}\n\n", grid(table));
+    for note in notes(table) {
+        let _ = writeln!(text, "- {note}");
+    }
+    text
+}
+
+/// What is to be said of a table.
+pub fn notes(table: &Table) -> Vec<String> {
+    (table.also.iter())
+        .map(|datum| format!("The thesis also has, for no line above: {datum}."))
+        .chain(table.notes.iter().cloned())
+        .collect()
+}
+
+/// The lines and columns alone.
+pub fn grid(table: &Table) -> String {
     let mut columns = vec![
         Column {
             heading: "scene".into(),
@@ -40,15 +58,7 @@ pub fn of(table: &Table) -> String {
     for column in drawn.column_iter_mut().skip(words) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    let mut text = format!("Table {}: {}\n\n", table.table.name(), table.title);
-    let _ = write!(text, "{drawn}\n\n");
-    for datum in &table.also {
-        let _ = writeln!(text, "- The thesis also has, for no line above: {datum}.");
-    }
-    for note in &table.notes {
-        let _ = writeln!(text, "- {note}");
-    }
-    text
+    drawn.to_string()
 }
 
 struct Column<'a> {
