@@ -40,10 +40,14 @@ const SIZE: &str = "--size 512x512";
 
 const FIGURES: [u32; 5] = [19, 20, 21, 22, 23];
 
-/// Ways to share a picture: an uneven one, a coarse one, and the one that is chosen.
-const PACKINGS: [(&str, &str); 3] = [
+/// Ways to share a picture: an uneven one, a coarse one, a fine one, and the one that is chosen, which probes first.
+const PACKINGS: [(&str, &str); 4] = [
     ("two halves", "--schedule prescheduled --packet-rows 4"),
     ("8 strips", "--schedule dynamic --packet-rows 64"),
+    (
+        "tiles",
+        "--schedule dynamic --packet-rows 16 --packet-columns 16",
+    ),
     ("chosen", ""),
 ];
 

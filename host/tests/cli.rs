@@ -325,7 +325,7 @@ mod schedule {
 |------------|---------|---------------------|---------------------|
 | 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
 | 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
-| 2          | strips  |        1.95 (1 row) |       1.99 (4 rows) |
+| 2          | strips  |        1.94 (1 row) |       1.98 (4 rows) |
 | 2          | tiles   | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
 
 "#]]);

@@ -6,6 +6,7 @@ use octray::interrupt::Interrupt;
 use octray::metric::Difference;
 use octray::picture::{self, RasDepth, Target};
 use octray_engine::options::Arith;
+use octray_scenes::generate::{Kind, Spec, generate};
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,6 +14,12 @@ use std::path::{Path, PathBuf};
 
 /// Rows of the pictures; their proportions are the scenes' own.
 const HEIGHT: u32 = 90;
+
+/// Where the benchmark of speed has the hashes of its pictures.
+const BENCHMARK: &str = "../host/benches/pictures.csv";
+
+/// The most objects of a scene of the benchmark that is traced here, too.
+const MOST_OBJECTS: usize = 1000;
 
 /// Arithmetic is the same on every machine. But where a formula is changed for the better, pixels
 /// at edges may change sides: one in 500 may differ by more than a level.
@@ -70,4 +77,35 @@ fn every_picture_has_its_scene() {
         let name = shot::stem(&entry.unwrap().path());
         assert!(scenes.contains(&name), "{name}.png has no scene any more");
     }
+}
+
+#[test]
+fn the_benchmark_knows_its_pictures() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let known = fs::read_to_string(root.join(BENCHMARK)).unwrap();
+    let mut wrong = Vec::new();
+    let mut compared = 0;
+    for line in known.lines().skip(1) {
+        let (name, expected) = line.split_once(',').unwrap();
+        let scene = match name.split_once(' ') {
+            None => shot::read(&root.join("../scenes").join(name).with_extension("scene")),
+            Some((kind, objects)) => {
+                let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
+                let (kind, objects) = (kind.unwrap(), objects.parse().unwrap());
+                if objects > MOST_OBJECTS {
+                    continue;
+                }
+                generate(Spec { kind, objects }, 1)
+            }
+        };
+        let mut shot = Shot::new(Arith::F32).size(512, 512);
+        (shot.view.max_depth, shot.view.cut_off) = (4, 0.0);
+        let hash = format!("{:016x}", shot.take(&scene).picture.hash());
+        if hash != expected {
+            wrong.push(format!("{name},{hash}"));
+        }
+        compared += 1;
+    }
+    assert!(compared > 10);
+    assert!(wrong.is_empty(), "in {BENCHMARK}:\n{}", wrong.join("\n"));
 }

@@ -144,9 +144,10 @@ mod tests {
         let lab = Lab::new(Some((48, 32)), false, &interrupt);
         let tally = lab.tally(Trial::of(FIGURES[2])).unwrap();
         let (map, _) = lab.map(FIGURES[2]).unwrap();
-        // What blocked a light last is forgotten between packets, so a few tests differ: 2 % in so small a
+        // What blocked a light last is forgotten between packets, and tests of boxes are dear: 4 % in so small a
         // picture.
-        assert!((map.total() / tally.instructions - 1.0).abs() < 0.03);
+        let beyond = map.total() / tally.instructions - 1.0;
+        assert!(beyond.abs() < 0.05, "{beyond}");
         assert_eq!(tally.pixels, 48 * 32);
         let larger = Trial {
             larger: true,
