@@ -64,11 +64,8 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
-    fn shape(rows: u32, columns: u32) -> Shape {
-        Shape {
-            rows: NonZeroU32::new(rows).unwrap(),
-            columns: NonZeroU32::new(columns),
-        }
+    fn tile(side: u32) -> Shape {
+        Shape::tile(NonZeroU32::new(side).unwrap())
     }
 
     /// The packets of a region, each of one level of grey by its number.
@@ -90,7 +87,8 @@ mod tests {
 
     #[test]
     fn packets_come_to_their_places_in_whatever_order() {
-        for shape in [shape(3, 0), shape(2, 2), shape(1, 1), shape(100, 100)] {
+        let strip = Shape::strip(const { NonZeroU32::new(3).unwrap() });
+        for shape in [strip, tile(2), tile(1), tile(100)] {
             let black = Picture::black(10, 9, false).unwrap();
             let mut expected = black.clone();
             let parts = parts(&region(), shape);
@@ -105,7 +103,7 @@ mod tests {
 
     #[test]
     fn nothing_is_written_before_its_row_is_whole() {
-        let (shape, black) = (shape(4, 4), Picture::black(10, 9, false).unwrap());
+        let (shape, black) = (tile(4), Picture::black(10, 9, false).unwrap());
         let parts = parts(&region(), shape);
         let assembly = Assembly::new(black.clone(), &region(), shape);
         // One of both rows.
@@ -128,7 +126,7 @@ mod tests {
             },
             Picture::black(2, 2, true),
         );
-        let assembly = Assembly::new(black.clone().unwrap(), &nothing, shape(4, 4));
+        let assembly = Assembly::new(black.clone().unwrap(), &nothing, tile(4));
         assert_eq!(Some(assembly.into_picture()), black);
     }
 }

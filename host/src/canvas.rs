@@ -30,7 +30,7 @@ pub trait Figure {
     fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B>;
 }
 
-/// The figure as SVG. Where it is shown with another font, its texts keep their [`widths`].
+/// The figure as SVG. Where it is shown with another font, its texts keep their widths.
 ///
 /// # Errors
 /// When it cannot be drawn.

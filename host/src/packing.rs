@@ -25,7 +25,7 @@ use std::time::Instant;
 
 /// Instructions that each packet costs its thread beyond its pixels: those that Callgrind counts of a picture
 /// in packets of one pixel beyond the same in whole rows.
-pub const PER_PACKET: f64 = 1100.0;
+pub const PER_PACKET: f64 = 1300.0;
 
 /// Instructions that a thread could do while a packet that is handed out to it keeps the others from theirs:
 /// 11 ns, as two threads took that did nothing but draw packets.

@@ -221,3 +221,26 @@ fn pause() {
 fn failed(text: String) -> Error {
     Error::Failed(text)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_buffer_has_room_for_what_may_be_on_its_way() {
+        let square = |side| Region {
+            columns: 0..side,
+            rows: 0..side,
+        };
+        let results = 2 * IN_HAND;
+        assert_eq!(
+            buffer(&square(16), false),
+            Some(results * (4 + 256 * 3 + OVERHEAD))
+        );
+        assert_eq!(
+            buffer(&square(16), true),
+            Some(results * (4 + 256 * 15 + OVERHEAD))
+        );
+        assert_eq!(buffer(&square(65_535), false), None);
+    }
+}
