@@ -8,6 +8,7 @@
 //! arithmetic with the tree that was grown over it) as an [`Engine`], whose [`Worker`]s fill packets of the
 //! picture ([`packet`]).
 
+mod apart;
 mod build;
 mod grown;
 pub mod options;

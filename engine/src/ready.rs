@@ -1,5 +1,6 @@
 //! A scene in some arithmetic with some tree, and what one thread traces it with.
 
+use crate::apart::Apart;
 use crate::grown::Grown;
 use crate::packet::{Intensity, Level, Packet};
 use crate::{Built, Engine, FirstHit, Worker};
@@ -31,21 +32,22 @@ impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
         Box::new(Tracing {
             ready: self,
             tree: self.tree.view(),
-            rays: vec![Pending::EMPTY; self.max_depth as usize + 2],
+            rays: Apart::new(Pending::EMPTY, self.max_depth as usize + 2),
             stack: Default::default(),
-            blockers: vec![None; scene.lights.len()],
+            blockers: Apart::new(None, scene.lights.len()),
             counters: Counters::default(),
         })
     }
 }
 
-/// What one thread traces with.
+/// What one thread traces with, in cache lines of its own as [`Apart`] has it.
+#[repr(align(128))]
 struct Tracing<'a, S: Quantize, T: Grown<S>> {
     ready: &'a Ready<S, T>,
     tree: T::View<'a>,
-    rays: Vec<Pending<S>>,
+    rays: Apart<Pending<S>>,
     stack: Stack<'a, S, T>,
-    blockers: Vec<Option<ObjectRef>>,
+    blockers: Apart<Option<ObjectRef>>,
     counters: Counters,
 }
 
@@ -70,9 +72,9 @@ impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
             cut_off: self.ready.cut_off,
         };
         let mut workspace = Workspace {
-            rays: &mut self.rays,
+            rays: self.rays.get(),
             stack: &mut self.stack,
-            blockers: &mut self.blockers,
+            blockers: self.blockers.get(),
         };
         work(&tracer, &mut workspace, &mut self.counters)
     }
@@ -98,7 +100,7 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
             intensities.fill(background.1);
         }
         // What blocked the lights last in another packet must not change what is counted in this one.
-        self.blockers.fill(None);
+        self.blockers.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();
         self.render(&region, |x, y, colour| {
