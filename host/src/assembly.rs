@@ -23,12 +23,11 @@ pub struct Assembly {
 impl Assembly {
     /// A picture of which a region comes in packets of a shape, numbered as [`Shape::cut`] has them.
     pub fn new(picture: Picture, region: &Region, shape: Shape) -> Self {
-        let across = shape.across(region);
-        let rows = shape.count(region).checked_div(across).unwrap_or(0);
+        let rows = 0..shape.down(region);
         Self {
             picture: Mutex::new(picture),
-            rows: (0..rows).map(|_| Mutex::default()).collect(),
-            across,
+            rows: rows.map(|_| Mutex::default()).collect(),
+            across: shape.across(region),
         }
     }
 

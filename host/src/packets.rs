@@ -41,9 +41,14 @@ impl Shape {
         }
     }
 
+    /// How many rows of packets there are in a region.
+    pub fn down(self, region: &Region) -> usize {
+        region.rows.len().div_ceil(self.rows.get() as usize)
+    }
+
     /// How many packets cover a region.
     pub fn count(self, region: &Region) -> usize {
-        self.across(region) * region.rows.len().div_ceil(self.rows.get() as usize)
+        self.across(region) * self.down(region)
     }
 
     /// The packets that cover a region, row by row from its upper left corner.

@@ -5,7 +5,7 @@
 //! per ray and bits the picture needs; [`events`] counts what happens meanwhile, from which the [`model`]
 //! predicts instructions and memory; [`choice`] takes the cheapest arithmetic and tree that fit; and
 //! [`report`] tells it, with a remedy if nothing fits; a [`trial`] measures what came of it. The model is
-//! [fitted](fit) to a [`record`] of measurements.
+//! [fitted](fit) to a [`record`] of measurements, [`comb`]s among them.
 
 pub mod accuracy;
 pub mod choice;

@@ -175,12 +175,10 @@ fn abandon(universe: mpi::environment::Universe, done: Result<(), Error>) -> Res
 /// that is more than MPI can count.
 fn buffer(largest: &Region, intensities: bool) -> Option<usize> {
     let pixels = largest.columns.len().checked_mul(largest.rows.len())?;
-    let pixel = size_of::<Level>()
-        + if intensities {
-            size_of::<Intensity>()
-        } else {
-            0
-        };
+    let pixel = match intensities {
+        true => size_of::<Level>() + size_of::<Intensity>(),
+        false => size_of::<Level>(),
+    };
     let result = pixels.checked_mul(pixel)?.checked_add(size_of::<u32>())?;
     // Twice as many as are in hand, as MPI may not have noticed yet that the answered ones are gone.
     let bytes = (result + OVERHEAD).checked_mul(2 * IN_HAND)?;
