@@ -14,11 +14,11 @@
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_core::octree::{self, PACKED_DEPTH};
-use octray_scenes::bake::{Options, Tree, bake};
+use octray_prepare::bake::{Options, Tree, bake};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::{Plan, PlanError};
-use octray_scenes::quantise::View;
-use octray_scenes::target::Test;
+use octray_prepare::plan::{Plan, PlanError};
+use octray_prepare::quantise::View;
+use octray_prepare::target::Test;
 use std::path::Path;
 use std::{env, fs, process};
 

@@ -7,8 +7,8 @@ use crate::{Built, Engine, Octree};
 use octray_core::octree::{self, Options, PACKED_DEPTH, Summary, Variant};
 use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_scenes::model::Scene;
-use octray_scenes::quantise::{self, Overflow, Prepared, View};
-use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::quantise::{self, Overflow, Prepared, View};
+use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
 use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Why a scene could not be made ready.
@@ -54,7 +54,7 @@ pub fn build(
 }
 
 /// Makes a scene ready as small targets have it, with a packed tree or none: in any format that
-/// [`octray_scenes::bake`] knows by name.
+/// [`octray_prepare::bake`] knows by name.
 ///
 /// # Errors
 /// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the format or the tree,

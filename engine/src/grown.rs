@@ -3,7 +3,7 @@
 use octray_core::octree::{Accelerator, List, Octants, Packed, Plane, Tight};
 use octray_core::scalar::Quantize;
 use octray_core::shape::ObjectRef;
-use octray_scenes::tree::{OctantTree, PackedTree, TightTree};
+use octray_prepare::tree::{OctantTree, PackedTree, TightTree};
 
 /// A tree in memory of its own.
 pub(crate) trait Grown<S: Quantize>: Send + Sync {

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use octray_scenes::model::Scene;
-use octray_scenes::quantise;
+use octray_prepare::quantise;
 use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroUsize};
 

@@ -11,7 +11,7 @@ use octray_core::scalar::Quantize;
 use octray_core::shape::ObjectRef;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::Vec3;
-use octray_scenes::quantise::Prepared;
+use octray_prepare::quantise::Prepared;
 
 /// A scene in arithmetic `S` with a tree.
 pub(crate) struct Ready<S: Quantize, T> {

@@ -23,7 +23,7 @@ use octray_engine::options::{PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;
 use octray_firmware_sim::dither::{Dithered, PanelColor};
 use octray_firmware_sim::render::{ROWS, Strips};
-use octray_scenes::bake::CUT_OFF;
+use octray_prepare::bake::CUT_OFF;
 use screen::Screen;
 use std::time::Instant;
 

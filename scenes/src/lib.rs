@@ -1,4 +1,4 @@
-//! Scene files of octray: all that reads, checks, writes and generates them.
+//! Scene files of octray as text: read, check, write, generate.
 //!
 //! The modules, in the order of the data:
 //!
@@ -9,11 +9,6 @@
 //! | [`check`] | the promises a scene keeps, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
 //! | [`mod@generate`] | scenes of any size from a seed |
-//! | [`mod@quantise`] | a [`model::Scene`] in the numbers of one arithmetic, placed and scaled |
-//! | [`tree`] | octrees of a quantised scene, in memory of their own |
-//! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
-//! | [`target`] | what a target's core is good at, as far as it decides which tree is best |
-//! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
 //! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
 //!
 //! ```
@@ -26,16 +21,11 @@
 //! # Ok::<(), octray_scenes::diagnostic::Diagnostics>(())
 //! ```
 
-pub mod bake;
 pub mod check;
 pub mod diagnostic;
 pub mod generate;
 pub mod model;
 pub mod parse;
-pub mod plan;
-pub mod quantise;
-pub mod target;
-pub mod tree;
 pub mod write;
 
 pub use generate::generate;

@@ -3,7 +3,7 @@
 
 use octray_core::scalar::Quantize;
 use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
-use octray_scenes::quantise::{Prepared, View, limits, quantise, resolution};
+use octray_prepare::quantise::{Prepared, View, limits, quantise, resolution};
 
 /// A scene and the view of it.
 #[derive(Clone, Debug)]

@@ -1,5 +1,5 @@
 //! The shipped forms never break inside what is admitted: this ties the sweeps to
-//! [`octray_scenes::quantise::limits`] and [`octray_scenes::quantise::resolution`].
+//! [`octray_prepare::quantise::limits`] and [`octray_prepare::quantise::resolution`].
 
 use octray_stability::method::SHIPPED;
 use octray_stability::number::ARITHMETICS;

@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn floats_are_emulated_where_there_is_no_unit() {
         for board in &BOARDS {
-            let emulated = octray_scenes::target::emulates_floats(board.target);
+            let emulated = octray_prepare::target::emulates_floats(board.target);
             assert_eq!(board.fpu, !emulated, "{board}");
         }
     }

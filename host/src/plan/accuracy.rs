@@ -9,10 +9,10 @@ use crate::metric::Difference;
 use crate::picture::Picture;
 use octray_core::octree::{self, PACKED_DEPTH};
 use octray_engine::options::DEEPEST;
-use octray_scenes::bake::{CUT_OFF, Tree};
+use octray_prepare::bake::{CUT_OFF, Tree};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::{Plan, fingerprint};
-use octray_scenes::quantise::{Bound, bounds};
+use octray_prepare::plan::{Plan, fingerprint};
+use octray_prepare::quantise::{Bound, bounds};
 use serde::Serialize;
 
 /// The packed tree that pictures are compared with; all trees give the same.

@@ -7,8 +7,8 @@ use super::model::{Family, Model, Parts, Prediction, Weights};
 use crate::error::Error;
 use crate::measure::board::Board;
 use octray_core::octree::{self, PACKED_DEPTH};
-use octray_scenes::bake::{Baked, Tree, bake};
-use octray_scenes::plan::Plan;
+use octray_prepare::bake::{Baked, Tree, bake};
+use octray_prepare::plan::Plan;
 
 /// Objects up to which it is tried to do without a tree.
 const FEW: usize = 64;

@@ -13,9 +13,9 @@ use octray_core::observe::{Counters, RayKind, Searches};
 use octray_core::octree::Options;
 use octray_engine::options::{PixelsPerRay, ViewOptions};
 use octray_engine::{self as engine, Engine};
-use octray_scenes::bake::Tree;
+use octray_prepare::bake::Tree;
 use octray_scenes::model::Scene;
-use octray_scenes::plan::Plan;
+use octray_prepare::plan::Plan;
 use std::num::NonZeroU32;
 
 /// How many events of a search there are.

@@ -7,8 +7,8 @@ use super::events::{Events, NAMES, OF_REST, OF_SEARCH};
 use crate::error::Error;
 use octray_core::needs::{self, Needs};
 use octray_core::trace::Pending;
-use octray_scenes::bake::{Baked, Tree};
-use octray_scenes::plan::Plan;
+use octray_prepare::bake::{Baked, Tree};
+use octray_prepare::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
 

@@ -7,7 +7,7 @@ use super::model::ROWS;
 use super::report::{Cheaper, Decision, decibels};
 use crate::facts::thousands;
 use octray_core::needs;
-use octray_scenes::bake::Tree;
+use octray_prepare::bake::Tree;
 
 /// How often rays bounce; `less` tells by how much of themselves the plan's instructions grow with other events.
 pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {

@@ -8,11 +8,11 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::measure::board::{BOARDS, Board};
 use octray_core::octree::{self, PACKED_DEPTH};
-use octray_scenes::bake::{Baked, CUT_OFF, Tree, bake};
+use octray_prepare::bake::{Baked, CUT_OFF, Tree, bake};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::{Plan, fingerprint};
-use octray_scenes::target::Test;
+use octray_prepare::plan::{Plan, fingerprint};
+use octray_prepare::target::Test;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::io::{Read, Write};
@@ -174,7 +174,7 @@ impl Line {
     /// If there is no such format or tree.
     pub fn plan(&self, scene: &Scene) -> Result<Plan, Error> {
         let unknown = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
-        let formats = octray_scenes::bake::FORMATS;
+        let formats = octray_prepare::bake::FORMATS;
         // As the firmware's build script chooses it.
         let options = octree::Options {
             depth: PACKED_DEPTH,
@@ -198,7 +198,7 @@ impl Line {
         let options = plan
             .options(scene, "")
             .map_err(|why| unknown(&why.to_string()))?;
-        let options = octray_scenes::bake::Options {
+        let options = octray_prepare::bake::Options {
             rays: None,
             ..options
         };

@@ -9,7 +9,7 @@ use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
 use super::trial::Trial;
 use crate::error::Error;
 use crate::facts::thousands;
-use octray_scenes::plan::Plan;
+use octray_prepare::plan::Plan;
 use serde::Serialize;
 
 /// What there is to tell.

@@ -11,7 +11,7 @@ use crate::measure::memory::Memory;
 use crate::measure::workspace::Workspace;
 use crate::measure::{self, frames};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::Plan;
+use octray_prepare::plan::Plan;
 use serde::Serialize;
 use std::fs;
 use std::path::Path;

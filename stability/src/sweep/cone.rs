@@ -11,7 +11,7 @@ use octray_core::ray::Ray;
 use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Shape;
-use octray_scenes::quantise::Prepared;
+use octray_prepare::quantise::Prepared;
 
 const FORMS: &[Form] = &[
     Form {

@@ -11,7 +11,7 @@ use octray_core::scene::Surface;
 use octray_core::shape::ObjectRef;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::{Vec3, vec3};
-use octray_scenes::quantise::Prepared;
+use octray_prepare::quantise::Prepared;
 
 /// Two mirrors face each other and reflect 0 to 499/500; each shines by itself, so much that all
 /// light together is 0.9. Truth is the sum of all reflections of the numbers as they are rounded.

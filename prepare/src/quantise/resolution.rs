@@ -3,7 +3,7 @@
 
 use super::camera::{View, add, length, times};
 use super::extent::{Extent, shape_box};
-use crate::model::{Point, Scene, Shape};
+use octray_scenes::model::{Point, Scene, Shape};
 use octray_core::scalar::Quantize;
 use std::fmt;
 

@@ -1,7 +1,7 @@
 //! What cannot be scaled: light, coefficients, refraction indices. Interval bounds over the scene
 //! say how large they and all that is computed from them can become.
 
-use crate::model::Scene;
+use octray_scenes::model::Scene;
 use octray_core::scalar::{Fixed, Quantize};
 use thiserror::Error;
 

@@ -1,7 +1,7 @@
 //! Baked scenes: what they are said to need, and the numbers that are written.
 
-use octray_scenes::bake::{BakeError, Baked, FORMATS, Options, Tree, bake};
-use octray_scenes::quantise::View;
+use octray_prepare::bake::{BakeError, Baked, FORMATS, Options, Tree, bake};
+use octray_prepare::quantise::View;
 
 const HEAD: &str = "v 0 0 9 resolution 8 8 l 5 5 9 1";
 

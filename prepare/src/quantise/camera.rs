@@ -1,7 +1,7 @@
 //! From the parsed camera to the tracer's, and which pixels can see anything.
 
 use super::{Extent, Placement, vector};
-use crate::model::{self, Point, Scene};
+use octray_scenes::model::{self, Point, Scene};
 use octray_core::camera::{Camera, Projection};
 use octray_core::packet::{Frame, Region};
 use octray_core::scalar::Quantize;

@@ -4,8 +4,8 @@ use octray_core::octree::{Accelerator, Options, Packed};
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::generate::{Kind, Spec, generate};
-use octray_scenes::quantise::{Prepared, View, quantise};
-use octray_scenes::tree::{Growth, PackedTree};
+use octray_prepare::quantise::{Prepared, View, quantise};
+use octray_prepare::tree::{Growth, PackedTree};
 
 const VIEW: View = View {
     size: Some((64, 48)),

@@ -3,7 +3,7 @@
 use octray_core::scalar::{Approx, Fixed, Quantize};
 use octray_scenes::model::Scene;
 use octray_scenes::parse::{parse, read};
-use octray_scenes::quantise::{View, resolution};
+use octray_prepare::quantise::{View, resolution};
 use std::path::Path;
 
 const FIGURES: [&str; 5] = [

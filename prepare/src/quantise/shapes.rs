@@ -3,7 +3,7 @@
 use super::camera::{add, cross, dot, length, times, unit};
 use super::extent::shape_box;
 use super::{Placement, Quantised, down, up, vector};
-use crate::model::{Object, Point, Scene, Shape};
+use octray_scenes::model::{Object, Point, Scene, Shape};
 use octray_core::ray::Bounds;
 use octray_core::scalar::Quantize;
 use octray_core::scene::Attributes;

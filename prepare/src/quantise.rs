@@ -19,7 +19,7 @@ pub use extent::Extent;
 pub use limits::{Bound, Overflow, bounds, finest, limits};
 pub use resolution::{TooFine, grain, resolution};
 
-use crate::model;
+use octray_scenes::model;
 use octray_core::packet::Frame;
 use octray_core::scalar::{Exponent, Quantize, Scalar};
 use octray_core::scene::{Attributes, Light, Scene, Surface};

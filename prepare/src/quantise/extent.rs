@@ -1,7 +1,7 @@
 //! How far a scene reaches.
 
 use super::camera::Rays;
-use crate::model::{Point, Scene, Shape};
+use octray_scenes::model::{Point, Scene, Shape};
 
 /// The box around all objects, and the box around all that takes part in the arithmetic: objects,
 /// lights and the places where rays start. In scene units.

@@ -5,17 +5,17 @@
 //! one scene only (the rays that wait were counted), so the plan names its [`fingerprint()`].
 //!
 //! ```
-//! use octray_scenes::plan::Plan;
+//! use octray_prepare::plan::Plan;
 //!
 //! let plan: Plan = "scene 0123456789abcdef\narith i18f14\nsize 64x48\npixels-per-ray 1\nmax-depth 3\n\
 //!     cut-off 0.001953125\ntree packed\ntree-depth 2\nleaf-size 4\nrays 1\n".parse()?;
 //! assert_eq!(plan.max_depth, 3);
 //! assert_eq!(plan.to_string().parse(), Ok(plan));
-//! # Ok::<(), octray_scenes::plan::PlanError>(())
+//! # Ok::<(), octray_prepare::plan::PlanError>(())
 //! ```
 
 use crate::bake::{FORMATS, Options, Tree};
-use crate::model::Scene;
+use octray_scenes::model::Scene;
 use crate::quantise::View;
 use fnv::FnvHasher;
 use octray_core::octree;
@@ -46,15 +46,15 @@ pub struct Plan {
     pub rays: usize,
 }
 
-/// Tells scenes apart: FNV-1a, 64 bits, over the text that [`write()`](crate::write()) makes of the scene. So
+/// Tells scenes apart: FNV-1a, 64 bits, over the text that [`write()`](octray_scenes::write()) makes of the scene. So
 /// comments, spaces and the dialect of its file do not count.
 ///
 /// # Panics
-/// As [`write()`](crate::write()).
+/// As [`write()`](octray_scenes::write()).
 pub fn fingerprint(scene: &Scene) -> u64 {
     let mut text = Vec::new();
     // Nothing fails where there is memory.
-    crate::write(scene, &mut text).unwrap_or_default();
+    octray_scenes::write(scene, &mut text).unwrap_or_default();
     let mut hasher = FnvHasher::default();
     hasher.write(&text);
     hasher.finish()
@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn a_plan_is_of_one_scene() {
-        let scene = |text| crate::parse(text).unwrap();
+        let scene = |text| octray_scenes::parse(text).unwrap();
         let ball = "v 0 0 500 f 1 0.5 0.2 0.8 0.2 10 0 1 s 0 0 -50 40";
         let planned = Plan {
             scene: fingerprint(&scene(ball)),

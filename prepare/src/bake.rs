@@ -23,7 +23,7 @@ mod source;
 pub use format::{FORMATS, bake};
 pub use literal::Literal;
 
-use crate::model::Scene;
+use octray_scenes::model::Scene;
 use crate::quantise::{Overflow, Prepared, View, quantise};
 use crate::tree::{Growth, PackedTree, every_object};
 use octray_core::needs::{self, Needs};

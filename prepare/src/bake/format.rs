@@ -1,7 +1,7 @@
 //! The arithmetics by name.
 
 use super::{BakeError, Baked, Options, bake_as};
-use crate::model::Scene;
+use octray_scenes::model::Scene;
 use crate::quantise::finest;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 
