@@ -1,12 +1,12 @@
 //! `octray diff`: how far apart two pictures are, and whether that is within bounds.
 
-use crate::error::Error;
-use crate::facts::thousands;
-use crate::heat;
-use crate::interrupt::Interrupt;
-use crate::metric::Difference;
-use crate::output;
-use crate::picture::{self, RasDepth, Target};
+use octray_render::error::Error;
+use octray_render::facts::thousands;
+use octray_render::heat;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::output;
+use octray_render::picture::{self, RasDepth, Target};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! `octray generate`: a scene of any size from a seed.
 
-use crate::error::Error;
-use crate::interrupt::Interrupt;
-use crate::output;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
 use octray_scenes::generate::{Spec, generate};
 use std::io::{self, Write};
 use std::path::PathBuf;

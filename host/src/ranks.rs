@@ -9,10 +9,10 @@
 mod lead;
 mod serve;
 
-use crate::error::Error;
-use crate::interrupt::Interrupt;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 use crate::job::RenderJob;
-use crate::packets::Shape;
+use octray_render::packets::Shape;
 use crate::render;
 use lead::Leader;
 use mpi::point_to_point::{Message, Status};
@@ -20,8 +20,8 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
 use octray_core::observe::{Counters, Searches};
 use octray_core::packet::Region;
-use octray_engine::options::{Arith, TreeOptions, ViewOptions};
-use octray_engine::packet::{Intensity, Level};
+use octray_prepare::RenderSettings;
+use octray_render::packet::{Intensity, Level};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -54,9 +54,7 @@ const PAUSE: Duration = Duration::from_micros(20);
 #[derive(Serialize, Deserialize)]
 struct Plan<'a> {
     scene: Cow<'a, Scene>,
-    arith: Arith,
-    tree: TreeOptions,
-    view: ViewOptions,
+    settings: RenderSettings,
     shape: Shape,
     /// Whether intensities are wanted beside levels.
     intensities: bool,
@@ -148,7 +146,7 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
         rank => match serve::serve(&mut universe, interrupt) {
             Ok(()) => Ok(()),
             // The first rank says it for all.
-            Err(Error::Interrupted) => std::process::exit(crate::interrupt::EXIT_CODE),
+            Err(Error::Interrupted) => std::process::exit(crate::INTERRUPTED.into()),
             Err(error) => {
                 let told = Err(failed(format!("rank {rank}: {error}")));
                 return abandon(universe, told);

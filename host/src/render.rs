@@ -1,43 +1,31 @@
 //! `octray render`: read a scene, have it traced, write the picture, tell the cost.
 
-use crate::check;
-use crate::error::Error;
-use crate::facts::Facts;
-use crate::interrupt::Interrupt;
+use octray_render::error::Error;
+use octray_render::facts::Facts;
+use octray_render::interrupt::Interrupt;
 use crate::job::{RenderJob, StatsFormat};
-use crate::output;
-use crate::picture::Picture;
-use crate::progress::Progress;
-use crate::stats::{Rays, Seconds, Stats, Work};
+use octray_render::output;
+use octray_render::progress::{Bar, Progress};
+use crate::stats::{Seconds, Stats};
 use crate::summary::Summary;
-use octray_core::observe::{Counters, RayKind};
-use octray_engine::Octree;
+use octray_render::stats::Rays;
+use octray_render::trace::{self, Traced};
+use octray_core::observe::RayKind;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
-/// What tracing gives: the picture, and what it cost.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Traced {
-    /// The picture, with intensities if [`crate::picture::Target::holds_intensities`].
-    pub picture: Picture,
-    /// The number format that was used, e.g. `i16f16`.
-    pub format: String,
-    /// The scene was scaled by 2 to this power.
-    pub scale: i32,
-    /// What the format is too coarse for, if anything.
-    pub too_fine: Option<String>,
-    /// Rays, steps, tests and hits.
-    pub counters: Counters,
-    /// Fixed-point results that had to be clamped.
-    pub saturations: u64,
-    /// The octree.
-    pub octree: Octree,
-    /// Time to convert the scene and to build the octree.
-    pub build: Duration,
-    /// Time to trace.
-    pub render: Duration,
-    /// How it was done.
-    pub work: Work,
+/// Traces what a job asks for, on threads.
+///
+/// # Errors
+/// As [`trace::trace`].
+pub fn trace(
+    scene: &Scene,
+    job: &RenderJob,
+    progress: &dyn Progress,
+    interrupt: &Interrupt,
+) -> Result<Traced, Error> {
+    let intensities = job.output.holds_intensities();
+    trace::trace(scene, &job.settings, &job.work, intensities, progress, interrupt)
 }
 
 /// Do `job`, the tracing itself being done by `trace`.
@@ -48,14 +36,14 @@ pub struct Traced {
 pub fn run(
     job: &RenderJob,
     interrupt: &Interrupt,
-    trace: impl FnOnce(&Scene, &RenderJob, &Progress, &Interrupt) -> Result<Traced, Error>,
+    trace: impl FnOnce(&Scene, &RenderJob, &dyn Progress, &Interrupt) -> Result<Traced, Error>,
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = check::read(&job.scene)?;
+    let scene = octray_scenes::read(&job.scene)?;
     let parse = begin.elapsed();
     interrupt.check()?;
-    let progress = Progress::new("tracing");
+    let progress = Bar::new("tracing");
     let traced = trace(&scene, job, &progress, interrupt)?;
     drop(progress);
     interrupt.check()?;
@@ -77,8 +65,8 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         scene: job.scene.display().to_string(),
         facts: Facts::of(scene),
         picture: job.output.path.display().to_string(),
-        arith: job.arith,
-        format: traced.format.clone(),
+        arith: job.settings.arith,
+        format: traced.format,
         scale: traced.scale,
         too_fine: traced.too_fine.clone(),
         size: traced.picture.size(),
@@ -101,10 +89,14 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deal::Policy;
-    use crate::job::WorkOptions;
-    use crate::picture::{self, RasDepth, Target};
-    use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+    use octray_render::picture::{self, RasDepth, Target};
+    use octray_core::observe::Counters;
+    use octray_prepare::{Format, RenderSettings, TreeKind, TreeSettings};
+    use octray_render::deal::Policy;
+    use octray_render::engine::Octree;
+    use octray_render::picture::Picture;
+    use octray_render::stats::Work;
+    use octray_render::work::WorkOptions;
     use std::fs;
     use std::path::Path;
 
@@ -115,16 +107,13 @@ mod tests {
             scene: path,
             output: Target::new(folder.join(output)).unwrap(),
             ras_depth: RasDepth::Eight,
-            arith: Arith::F32,
-            tree: TreeOptions::of(Tree::None),
-            view: ViewOptions {
-                size: None,
-                pixels_per_ray: PixelsPerRay::One,
-                samples: 1,
-                max_depth: 8,
+            settings: RenderSettings {
+                tree: TreeSettings::of(TreeKind::None),
                 cut_off: 0.0,
+                ..RenderSettings::DEFAULT
             },
             work: WorkOptions::default(),
+            mpi: false,
             stats: StatsFormat::None,
         }
     }
@@ -137,13 +126,13 @@ mod tests {
         let levels = vec![[255, 0, 0]; pixels];
         Ok(Traced {
             picture: Picture::from_levels(scene.width, scene.height, levels).unwrap(),
-            format: "f32".into(),
+            format: Format::F32,
             scale: 0,
             too_fine: None,
             counters: Counters::default(),
             saturations: 0,
             octree: Octree {
-                kind: Tree::None,
+                kind: TreeKind::None,
                 nodes: 0,
                 links: 0,
                 depth: 0,
@@ -154,9 +143,8 @@ mod tests {
             work: Work {
                 threads: 1,
                 schedule: Policy::Dynamic,
-                packet: crate::packing::FIXED.1,
+                packet: WorkOptions::TILE,
                 packets: 1,
-                forecast: None,
                 messages: None,
                 idle: vec![0.0],
             },

@@ -1,8 +1,8 @@
 //! The statistics of a rendering as a summary to read.
 
-use crate::facts::thousands;
-use crate::packing::{self, Forecast};
-use crate::stats::{Messages, Stats};
+use octray_render::facts::thousands;
+use crate::stats::Stats;
+use octray_render::stats::Messages;
 use std::fmt;
 
 /// Shows [`Stats`] as aligned lines, each ended.
@@ -54,9 +54,6 @@ impl fmt::Display for Summary<'_> {
         let stages = stages.map(|(stage, seconds)| format!("{stage} {}", duration(seconds)));
         line(f, "time", &stages.join(", "))?;
         line(f, "work", &work(stats))?;
-        if let Some(forecast) = &stats.work.forecast {
-            line(f, "packing", &packing(forecast))?;
-        }
         if let Some(sent) = &stats.work.messages {
             line(f, "messages", &messages(sent))?;
         }
@@ -74,16 +71,12 @@ fn count(f: &mut fmt::Formatter<'_>, name: &str, number: u64, more: &str) -> fmt
 }
 
 fn arithmetic(stats: &Stats) -> String {
-    let name = stats.arith.name();
-    let format = match stats.format == name {
-        true => String::new(),
-        false => format!(": {}", stats.format),
-    };
+    let name = stats.arith.with_format(Some(stats.format));
     let scale = match stats.scale {
         0 => String::new(),
         power => format!(", scene scaled by 2^{power}"),
     };
-    format!("{name}{format}{scale}")
+    format!("{name}{scale}")
 }
 
 fn tree(stats: &Stats) -> String {
@@ -133,23 +126,6 @@ fn work(stats: &Stats) -> String {
     )
 }
 
-/// Why packets are as they are.
-fn packing(forecast: &Forecast) -> String {
-    let Forecast {
-        probed,
-        simulated,
-        seconds,
-        speed_up,
-        fixed,
-    } = forecast;
-    format!(
-        "speed-up {speed_up:.3} expected, best of {simulated} simulated after {} probes in {}; {fixed:.3} in {} without a probe",
-        thousands(*probed),
-        duration(*seconds),
-        packing::FIXED.1
-    )
-}
-
 /// What came back from other ranks.
 fn messages(sent: &Messages) -> String {
     let Messages {
@@ -195,7 +171,7 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::tests::example;
+    use octray_render::stats::tests::example;
     use snapbox::{assert_data_eq, str};
 
     #[test]
@@ -218,7 +194,6 @@ hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
 work          1,524,292 rays/s, 2 threads, 64 packets of 16 x 16 pixels, dynamic schedule
-packing       speed-up 1.988 expected, best of 6 simulated after 324 probes in 250 us; 1.957 in 16 x 16 pixels without a probe
 idle          500 us, 0 us
 
 "#]]
@@ -229,7 +204,7 @@ idle          500 us, 0 us
     fn a_full_arena_is_told_and_plain_arithmetic_named_once() {
         let mut stats = example();
         (stats.arith, stats.format, stats.scale) =
-            (octray_engine::options::Arith::F32, "f32".into(), 0);
+            (octray_prepare::Arith::F32, octray_prepare::Format::F32, 0);
         (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
         stats.too_fine = Some("f32 resolves little".into());
         let text = Summary(&stats).to_string();

@@ -113,10 +113,10 @@ fn the_command_of_a_point_renders_its_picture() {
                 .args(["--stats=none", "--output=a.ppm"])
                 .status();
             assert!(status.unwrap().success(), "{command}");
-            octray::picture::read(&folder.path().join("a.ppm")).unwrap()
+            octray_render::picture::read(&folder.path().join("a.ppm")).unwrap()
         })
         .collect();
-    let difference = octray::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
+    let difference = octray_render::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
     let point = &points(folder.path(), "a.json")[1];
     assert_eq!(point["psnr"].as_f64(), Some(difference.psnr()));
 }

@@ -1,15 +1,15 @@
 //! `octray plan`: its plans keep what they promise, are as small as they can be, and cost what they say.
 
 use octray::check;
-use octray::interrupt::Interrupt;
-use octray::measure::board::{BOARDS, Board};
-use octray::metric::Difference;
-use octray::plan::accuracy::FORMATS;
-use octray::plan::comb::comb;
-use octray::plan::events::Probe;
-use octray::plan::job::{Bounds, Numbers, PlanJob, memory};
-use octray::plan::model::Model;
-use octray::plan::record;
+use octray_render::interrupt::Interrupt;
+use octray_lab::measure::board::{BOARDS, Board};
+use octray_render::metric::Difference;
+use octray_lab::plan::accuracy::FORMATS;
+use octray_lab::plan::comb::comb;
+use octray_lab::plan::events::Probe;
+use octray_lab::plan::job::{Bounds, Numbers, PlanJob, memory};
+use octray_lab::plan::model::Model;
+use octray_lab::plan::record;
 use octray_prepare::bake::{Tree, bake};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
@@ -70,7 +70,7 @@ fn render(scene: &Scene, plan: &Plan) -> Probe {
 fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
     for (name, scene) in scenes() {
         let job = job(board("m3"), Numbers::Any);
-        let report = octray::plan::plan(&job, &scene, &Interrupt::default()).unwrap();
+        let report = octray_lab::plan::plan(&job, &scene, &Interrupt::default()).unwrap();
         assert!(report.failures.is_empty(), "{name}: {:?}", report.failures);
         let plan = report.plan.unwrap();
         let with = |arith, pixels_per_ray, max_depth| Plan {

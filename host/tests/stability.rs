@@ -1,6 +1,6 @@
 //! `octray stability` end to end.
 
-use octray::picture;
+use octray_render::picture;
 use serde_json::Value;
 use snapbox::cmd::{Command, cargo_bin};
 use std::fs;

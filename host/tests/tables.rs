@@ -127,7 +127,7 @@ fn charts_are_drawn_with_their_tables() {
         assert!(svg.matches("<polyline").count() >= 2 * 5, "{name}");
         let sides =
             |name: &str| -> u32 { between(&svg, &format!("{name}=\""), "\"").parse().unwrap() };
-        let picture = octray::picture::read(&path.with_extension("png")).unwrap();
+        let picture = octray_render::picture::read(&path.with_extension("png")).unwrap();
         assert_eq!(picture.size(), (sides("width"), sides("height")), "{name}");
     }
     tables(folder.path(), &format!("I {quick}"))

@@ -16,53 +16,38 @@
 //! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
 //! | `NAME`, `ARITH` | the scene and the format, to be told |
 
-mod format;
 mod literal;
 mod source;
 
-pub use format::{FORMATS, bake};
 pub use literal::Literal;
 
 use octray_scenes::model::Scene;
-use crate::quantise::{Overflow, Prepared, View, quantise};
+use crate::format::{Format, InFormat};
+use crate::quantise::{Overflow, Prepared, quantise};
+use crate::settings::{RenderSettings, TreeKind};
 use crate::tree::{Growth, PackedTree, every_object};
 use octray_core::needs::{self, Needs};
-use octray_core::octree;
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
 use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use thiserror::Error;
 
-/// Rays of less weight are not traced, where nothing else is asked for: it is less than half a level.
-pub const CUT_OFF: f64 = 1.0 / 512.0;
-
-/// What is baked besides the scene.
+/// What is baked beside the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options<'a> {
-    /// The scene's name, to be told.
+pub struct BakeOptions<'a> {
+    /// The scene's name, to be printed by the program.
     pub name: &'a str,
-    /// The picture; its `max_depth` bounds how often a ray bounces.
-    pub view: View,
-    /// Rays of less weight are not traced.
-    pub cut_off: f64,
-    /// What finds the objects.
-    pub tree: Tree,
-    /// Room for so many rays that wait, where that is known to do; otherwise as many as the scene's
-    /// surfaces can make wait.
+    /// Arithmetic, tree and picture. The tree is [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; `max_depth` bounds
+    /// how often a ray bounces.
+    pub settings: RenderSettings,
+    /// Whether the device builds the tree in its own memory; how much it takes is found out beforehand.
+    pub on_device: bool,
+    /// The triple of the target, e.g. `thumbv6m-none-eabi`, which decides the leaf size where the settings do not.
+    pub target: Option<&'a str>,
+    /// Room for so many queued rays, where that is known to do; otherwise as many as the scene's surfaces can
+    /// make wait.
     pub rays: Option<usize>,
-}
-
-/// What finds the objects of a baked scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tree {
-    /// A list of all objects.
-    None,
-    /// A packed tree, built beforehand.
-    Packed(octree::Options),
-    /// A packed tree that the device builds in its own memory; how much it takes is found out
-    /// beforehand.
-    Device(octree::Options),
 }
 
 /// A baked scene.
@@ -70,8 +55,8 @@ pub enum Tree {
 pub struct Baked {
     /// Rust source.
     pub source: String,
-    /// The name of the format; tells what `auto` has chosen.
-    pub format: &'static str,
+    /// The format; the one that `auto` has chosen.
+    pub format: Format,
     /// What the scene needs.
     pub needs: Needs,
     /// Bytes of the tables, links and nodes included, on a target of 32 bits.
@@ -88,9 +73,9 @@ pub struct Baked {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BakeError {
-    /// There is no arithmetic of this name.
-    #[error("no arithmetic is called {0}")]
-    Unknown(String),
+    /// Targets have no such tree.
+    #[error("targets have the tree compact-bvh8 or none, not {}", .0.name())]
+    Tree(TreeKind),
     /// The scene does not fit the format.
     #[error("{0}")]
     Overflow(Overflow),
@@ -99,36 +84,59 @@ pub enum BakeError {
     TooMany,
 }
 
-/// Bakes a scene in format `S`.
+/// Bakes a scene.
 ///
 /// # Errors
-/// If the scene does not fit the format or the tree.
-pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked, BakeError> {
-    let mut prepared = quantise::<S>(scene, &options.view).map_err(BakeError::Overflow)?;
-    let grow = |scene: &mut _, options| {
-        let arena = None;
-        PackedTree::build(scene, &Growth { options, arena })
+/// If the scene does not fit the format or the tree, or targets have no such tree.
+pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError> {
+    struct Task<'a>(&'a Scene, &'a BakeOptions<'a>, Format);
+    impl InFormat for Task<'_> {
+        type Output = Result<Baked, BakeError>;
+        fn run<S: Literal>(self) -> Self::Output {
+            bake_as::<S>(self.0, self.1, self.2)
+        }
+    }
+    let settings = &options.settings;
+    let format = settings.arith.format(scene, settings.max_depth);
+    format.dispatch(Task(scene, options, format))
+}
+
+fn bake_as<S: Literal>(
+    scene: &Scene,
+    options: &BakeOptions<'_>,
+    format: Format,
+) -> Result<Baked, BakeError> {
+    let settings = &options.settings;
+    let mut prepared = quantise::<S>(scene, settings).map_err(BakeError::Overflow)?;
+    let growth = settings.tree.build_options(format, options.target);
+    let grow = |scene: &mut _| {
+        let growth = Growth {
+            options: growth,
+            arena: None,
+        };
+        PackedTree::build(scene, &growth)
             .map_err(|_| BakeError::TooMany)
             .map(|(tree, _)| tree)
     };
     let every = every_object(&prepared.scene);
-    let (tree, links) = match options.tree {
-        Tree::None => (source::Tree::None, every),
-        Tree::Packed(options) => {
-            let tree = grow(&mut prepared.scene, options)?;
+    let (tree, links) = match (settings.tree.kind, options.on_device) {
+        (TreeKind::None, _) => (source::Tree::None, every),
+        (TreeKind::CompactBvh8, false) => {
+            let tree = grow(&mut prepared.scene)?;
             let nodes = tree.tree().waiting();
             (
                 source::Tree::Packed(tree.words, tree.tick, nodes),
                 tree.links,
             )
         }
-        Tree::Device(growth) => {
+        (TreeKind::CompactBvh8, true) => {
             // The device finds the objects in the order of the file.
-            let words = grow(&mut prepared.scene.clone(), growth)?.words.len();
+            let words = grow(&mut prepared.scene.clone())?.words.len();
             (source::Tree::Device(words, growth), every)
         }
+        (other, _) => return Err(BakeError::Tree(other)),
     };
-    let needs = needs_of(&prepared, options.view.max_depth);
+    let needs = needs_of(&prepared, options.settings.max_depth);
     let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), needs, options));
     let tables = source::Tables {
         prepared: &prepared,
@@ -141,7 +149,7 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
     Ok(Baked {
         bytes: tables.bytes(),
         source: tables.to_string(),
-        format: S::NAME,
+        format,
         needs,
         rays,
         words: tables.tree.room(),
@@ -194,10 +202,10 @@ fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
 fn room<S: Scalar + Literal>(
     surfaces: &[Surface<S>],
     needs: Needs,
-    options: &Options<'_>,
+    options: &BakeOptions<'_>,
 ) -> usize {
     let follows =
-        |what| needs::needs(needs, what) && options.view.max_depth > 0 && !surfaces.is_empty();
+        |what| needs::needs(needs, what) && options.settings.max_depth > 0 && !surfaces.is_empty();
     match (follows(needs::REFLECTION), follows(needs::REFRACTION)) {
         (false, false) => 0,
         (true, false) | (false, true) => 1,
@@ -208,7 +216,7 @@ fn room<S: Scalar + Literal>(
             // Shares may come out a little heavier for rounding.
             let mut weight = 1.001;
             let mut bounces = 0;
-            while bounces < options.view.max_depth && weight * share >= options.cut_off {
+            while bounces < options.settings.max_depth && weight * share >= options.settings.cut_off {
                 weight *= share * 1.001;
                 bounces += 1;
             }

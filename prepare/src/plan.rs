@@ -8,20 +8,23 @@
 //! use octray_prepare::plan::Plan;
 //!
 //! let plan: Plan = "scene 0123456789abcdef\narith i18f14\nsize 64x48\npixels-per-ray 1\nmax-depth 3\n\
-//!     cut-off 0.001953125\ntree packed\ntree-depth 2\nleaf-size 4\nrays 1\n".parse()?;
+//!     cut-off 0.001953125\ntree compact-bvh8\ntree-depth 2\nleaf-size 4\nrays 1\n".parse()?;
 //! assert_eq!(plan.max_depth, 3);
 //! assert_eq!(plan.to_string().parse(), Ok(plan));
 //! # Ok::<(), octray_prepare::plan::PlanError>(())
 //! ```
 
-use crate::bake::{FORMATS, Options, Tree};
+use crate::bake::BakeOptions;
+use crate::choice::Choice;
+use crate::format::{Arith, Format};
+use crate::settings::{PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_scenes::model::Scene;
-use crate::quantise::View;
 use fnv::FnvHasher;
 use octray_core::octree;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hasher;
+use std::num::NonZeroU32;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -30,18 +33,20 @@ use thiserror::Error;
 pub struct Plan {
     /// The [`fingerprint()`] of the scene.
     pub scene: u64,
-    /// The arithmetic, one of [`FORMATS`].
-    pub arith: &'static str,
+    /// The number format.
+    pub format: Format,
     /// Columns and rows, 1 to 65535 each.
     pub size: (u32, u32),
-    /// Pixels that one ray colours, 1 or 4.
-    pub pixels_per_ray: u32,
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: PixelsPerRay,
     /// The most bounces.
     pub max_depth: u32,
     /// Rays of less weight are not traced, 0 to 1.
     pub cut_off: f64,
-    /// What finds the objects.
-    pub tree: Tree,
+    /// How the [`TreeKind::CompactBvh8`] is built that finds the objects; `None` if every ray tries every object.
+    pub tree: Option<octree::Options>,
+    /// Whether the device builds it.
+    pub on_device: bool,
     /// How many rays can wait at once.
     pub rays: usize,
 }
@@ -61,24 +66,44 @@ pub fn fingerprint(scene: &Scene) -> u64 {
 }
 
 impl Plan {
-    /// What to bake of its scene, which is told to be of this name.
+    /// The settings that were chosen.
+    pub fn settings(&self) -> RenderSettings {
+        let tree = match self.tree {
+            None => TreeSettings::of(TreeKind::None),
+            Some(octree::Options { depth, leaf_size }) => TreeSettings {
+                depth: Some(depth),
+                leaf_size: NonZeroU32::new(leaf_size),
+                ..TreeSettings::of(TreeKind::CompactBvh8)
+            },
+        };
+        RenderSettings {
+            arith: Arith::In(self.format),
+            tree,
+            size: Some(self.size),
+            pixels_per_ray: self.pixels_per_ray,
+            max_depth: self.max_depth,
+            cut_off: self.cut_off,
+            ..RenderSettings::DEFAULT
+        }
+    }
+
+    /// What to bake of its scene, which is called `name`.
     ///
     /// # Errors
     /// [`PlanError::Scene`] if it is another scene's plan.
-    pub fn options<'a>(&self, scene: &Scene, name: &'a str) -> Result<Options<'a>, PlanError> {
+    pub fn options<'a>(
+        &self,
+        scene: &Scene,
+        name: &'a str,
+    ) -> Result<BakeOptions<'a>, PlanError> {
         if self.scene != fingerprint(scene) {
             return Err(PlanError::Scene);
         }
-        Ok(Options {
+        Ok(BakeOptions {
             name,
-            view: View {
-                size: Some(self.size),
-                pixels_per_ray: self.pixels_per_ray,
-                samples: 1,
-                max_depth: self.max_depth,
-            },
-            cut_off: self.cut_off,
-            tree: self.tree,
+            settings: self.settings(),
+            on_device: self.on_device,
+            target: None,
             rays: Some(self.rays),
         })
     }
@@ -89,25 +114,27 @@ impl Display for Plan {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
             scene,
-            arith,
+            format,
             size: (width, height),
             pixels_per_ray,
             max_depth,
             cut_off,
             tree,
+            on_device,
             rays,
         } = self;
-        let (kind, grown) = match tree {
-            Tree::None => ("none", None),
-            Tree::Packed(grown) => ("packed", Some(grown)),
-            Tree::Device(grown) => ("device", Some(grown)),
+        let kind = match (tree, on_device) {
+            (None, _) => "none",
+            (Some(_), false) => "compact-bvh8",
+            (Some(_), true) => "device",
         };
+        let (arith, pixels_per_ray) = (format.name(), pixels_per_ray.number());
         write!(
             f,
             "scene {scene:016x}\narith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
              max-depth {max_depth}\ncut-off {cut_off}\ntree {kind}\n"
         )?;
-        if let Some(octree::Options { depth, leaf_size }) = grown {
+        if let Some(octree::Options { depth, leaf_size }) = tree {
             write!(f, "tree-depth {depth}\nleaf-size {leaf_size}\n")?;
         }
         writeln!(f, "rays {rays}")
@@ -146,13 +173,16 @@ impl FromStr for Plan {
         let mut lines = Lines::read(text)?;
         let whole = "a whole number";
         let pixels = "columns x rows, each from 1 to 65535, such as 160x120";
-        let kinds = "packed, device or none";
+        let kinds = "compact-bvh8, device or none";
         let scene = lines.take("scene", "16 hexadecimal digits", |text| {
             let digits = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
             u64::from_str_radix(text, 16).ok().filter(|_| digits)
         })?;
-        let arith = lines.take("arith", "an arithmetic", |name| {
-            FORMATS.into_iter().find(|known| *known == name)
+        let format = lines.take("arith", "an arithmetic", |name| {
+            match Arith::named(name) {
+                Some(Arith::In(format)) => Some(format),
+                _ => None,
+            }
         })?;
         let size = lines.take("size", pixels, |text| {
             let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
@@ -160,7 +190,7 @@ impl FromStr for Plan {
             Some((side(width)?.into(), side(height)?.into()))
         })?;
         let pixels_per_ray = lines.take("pixels-per-ray", "1 or 4", |text| {
-            text.parse().ok().filter(|n| [1, 4].contains(n))
+            PixelsPerRay::named(text)
         })?;
         let max_depth = lines.take("max-depth", "0 to 64", |text| {
             text.parse().ok().filter(|n| *n <= 64)
@@ -170,17 +200,11 @@ impl FromStr for Plan {
         })?;
         let kind = lines.take("tree", kinds, |text| Some(text.to_owned()))?;
         let tree = match &*kind {
-            "none" => Tree::None,
-            "packed" | "device" => {
-                let options = octree::Options {
-                    depth: lines.take("tree-depth", whole, |text| text.parse().ok())?,
-                    leaf_size: lines.take("leaf-size", whole, |text| text.parse().ok())?,
-                };
-                match &*kind {
-                    "packed" => Tree::Packed(options),
-                    _ => Tree::Device(options),
-                }
-            }
+            "none" => None,
+            "compact-bvh8" | "packed" | "device" => Some(octree::Options {
+                depth: lines.take("tree-depth", whole, |text| text.parse().ok())?,
+                leaf_size: lines.take("leaf-size", whole, |text| text.parse().ok())?,
+            }),
             _ => {
                 return Err(PlanError::Value {
                     name: "tree",
@@ -189,6 +213,7 @@ impl FromStr for Plan {
                 });
             }
         };
+        let on_device = kind == "device";
         let rays = lines.take("rays", "0 to 65", |text| {
             text.parse().ok().filter(|n| *n <= 65)
         })?;
@@ -196,12 +221,13 @@ impl FromStr for Plan {
             Some((name, value)) => Err(PlanError::Line(format!("{name} {value}"))),
             None => Ok(Self {
                 scene,
-                arith,
+                format,
                 size,
                 pixels_per_ray,
                 max_depth,
                 cut_off,
                 tree,
+                on_device,
                 rays,
             }),
         }
@@ -247,15 +273,16 @@ mod tests {
     fn example() -> Plan {
         Plan {
             scene: 0x12,
-            arith: "i18f14",
+            format: Format::I18F14,
             size: (160, 120),
-            pixels_per_ray: 4,
+            pixels_per_ray: PixelsPerRay::Four,
             max_depth: 5,
             cut_off: 1.0 / 512.0,
-            tree: Tree::Packed(octree::Options {
+            tree: Some(octree::Options {
                 depth: 3,
                 leaf_size: 2,
             }),
+            on_device: false,
             rays: 2,
         }
     }
@@ -267,9 +294,10 @@ mod tests {
             depth: 1,
             leaf_size: 9,
         };
-        for tree in [Tree::None, Tree::Device(grown), plan.tree] {
+        for (tree, on_device) in [(None, false), (Some(grown), true), (plan.tree, false)] {
             let plan = Plan {
                 tree,
+                on_device,
                 ..plan.clone()
             };
             assert_eq!(format!("# a comment\n\n{plan}").parse(), Ok(plan));
@@ -290,9 +318,9 @@ mod tests {
             ),
             ("rays 2", "rays", "plan: unexpected line `rays`"),
             (
-                "packed",
+                "compact-bvh8",
                 "oak",
-                "plan: tree oak: expected packed, device or none",
+                "plan: tree oak: expected compact-bvh8, device or none",
             ),
             (
                 "i18f14",

@@ -14,11 +14,11 @@ mod limits;
 mod resolution;
 mod shapes;
 
-pub use camera::View;
 pub use extent::Extent;
-pub use limits::{Bound, Overflow, bounds, finest, limits};
+pub use limits::{Bound, Overflow, bounds, limits};
 pub use resolution::{TooFine, grain, resolution};
 
+use crate::settings::RenderSettings;
 use octray_scenes::model;
 use octray_core::packet::Frame;
 use octray_core::scalar::{Exponent, Quantize, Scalar};
@@ -131,12 +131,12 @@ pub struct Prepared<S: Quantize> {
 ///
 /// # Errors
 /// If a colour, a coefficient, a refraction index or a transmitted share does not fit the format.
-pub fn quantise<S: Quantize>(scene: &model::Scene, view: &View) -> Result<Prepared<S>, Overflow> {
-    limits::<S>(scene, view.max_depth)?;
-    let rays = view.rays(scene);
+pub fn quantise<S: Quantize>(scene: &model::Scene, settings: &RenderSettings) -> Result<Prepared<S>, Overflow> {
+    limits::<S>(scene, settings.max_depth)?;
+    let rays = settings.rays(scene);
     let extent = Extent::of(scene, &rays);
     let placement = Placement::of::<S>(&extent);
-    let frame = view.frame::<S>(&rays, scene, &extent, &placement);
+    let frame = settings.frame::<S>(&rays, scene, &extent, &placement);
     let mut quantised = Quantised {
         slack: up(placement.length(placement.diagonal) * S::SLACK),
         reach: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),

@@ -1,4 +1,6 @@
-//! What a target's core is good at, as far as it decides which tree is best; told by the target's name.
+//! What a hit test costs on a target, by the name of its triple, as far as that decides which tree is best.
+
+use crate::format::{Family, Format};
 
 /// Whether 32-bit floats are emulated in integers, on an Arm or RISC-V core for microcontrollers.
 pub fn emulates_floats(target: &str) -> bool {
@@ -13,41 +15,41 @@ pub fn emulates_floats(target: &str) -> bool {
 /// What it takes to test a ray against an object, compared with a box of the tree, which is tested in
 /// short integers everywhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Test {
+pub enum HitTestCost {
     /// A few products.
-    Cheap,
+    Low,
     /// Long products on a core that has none.
-    Dear,
+    High,
     /// Emulated floats.
-    Dearest,
+    Highest,
 }
 
-impl Test {
-    /// In an arithmetic (see [`FORMATS`](crate::bake::FORMATS)) on a target. Units for floats have 32 bits.
-    pub fn of(arith: &str, target: &str) -> Self {
-        let is_float = arith.starts_with('f') || arith.starts_with("approx");
-        let emulated = arith == "f64" || emulates_floats(target);
+impl HitTestCost {
+    /// In a format on a target. Floating-point units have 32 bits.
+    pub fn of(format: Format, target: &str) -> Self {
+        let is_float = matches!(format.family(), Family::Float | Family::Approximate);
+        let emulated = format == Format::F64 || emulates_floats(target);
         match is_float && emulated {
-            true => Self::Dearest,
-            false if target.starts_with("thumbv6m") => Self::Dear,
-            false => Self::Cheap,
+            true => Self::Highest,
+            false if target.starts_with("thumbv6m") => Self::High,
+            false => Self::Low,
         }
     }
 
     /// From how many objects walking a tree costs less than trying every one. Measured.
     pub fn least_objects(self) -> usize {
         match self {
-            Self::Cheap => 8,
-            Self::Dear => 5,
-            Self::Dearest => 3,
+            Self::Low => 8,
+            Self::High => 5,
+            Self::Highest => 3,
         }
     }
 
     /// Objects up to which a node of the tree is best not divided. Measured.
     pub fn leaf_size(self) -> u32 {
         match self {
-            Self::Cheap => 2,
-            Self::Dear | Self::Dearest => 1,
+            Self::Low => 2,
+            Self::High | Self::Highest => 1,
         }
     }
 }
@@ -57,43 +59,43 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tests_are_dear_where_the_core_has_no_instructions_for_them() {
+    fn hit_tests_are_expensive_where_the_core_has_no_instructions_for_them() {
         for (target, fixed, f32, f64) in [
             (
                 "thumbv6m-none-eabi",
-                Test::Dear,
-                Test::Dearest,
-                Test::Dearest,
+                HitTestCost::High,
+                HitTestCost::Highest,
+                HitTestCost::Highest,
             ),
             (
                 "thumbv7m-none-eabi",
-                Test::Cheap,
-                Test::Dearest,
-                Test::Dearest,
+                HitTestCost::Low,
+                HitTestCost::Highest,
+                HitTestCost::Highest,
             ),
             (
                 "thumbv7em-none-eabihf",
-                Test::Cheap,
-                Test::Cheap,
-                Test::Dearest,
+                HitTestCost::Low,
+                HitTestCost::Low,
+                HitTestCost::Highest,
             ),
             (
                 "riscv32imac-unknown-none-elf",
-                Test::Cheap,
-                Test::Dearest,
-                Test::Dearest,
+                HitTestCost::Low,
+                HitTestCost::Highest,
+                HitTestCost::Highest,
             ),
             (
                 "riscv32imafc-unknown-none-elf",
-                Test::Cheap,
-                Test::Cheap,
-                Test::Dearest,
+                HitTestCost::Low,
+                HitTestCost::Low,
+                HitTestCost::Highest,
             ),
         ] {
-            let of = |arith| Test::of(arith, target);
-            assert_eq!([of("auto"), of("i16f16")], [fixed; 2], "{target}");
-            assert_eq!([of("f32"), of("approx2")], [f32; 2], "{target}");
-            assert_eq!(of("f64"), f64, "{target}");
+            let of = |format| HitTestCost::of(format, target);
+            assert_eq!([of(Format::I18F14), of(Format::I32F32)], [fixed; 2], "{target}");
+            assert_eq!([of(Format::F32), of(Format::Approx2)], [f32; 2], "{target}");
+            assert_eq!(of(Format::F64), f64, "{target}");
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Pictures made by octray, without its command line.
 
-use octray::interrupt::Interrupt;
+use octray_render::interrupt::Interrupt;
 use octray::job::{RenderJob, WorkOptions};
-use octray::progress::Progress;
+use octray_render::progress::Progress;
 use octray::render::Traced;
-use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_prepare::{Arith, PixelsPerRay, TreeKind, TreeSettings, RenderSettings};
 use octray_scenes::model::Scene;
 use std::fs;
 use std::num::NonZeroUsize;
@@ -58,7 +58,7 @@ impl Shot {
     pub fn new(arith: Arith) -> Self {
         Self {
             arith,
-            tree: TreeOptions::of(Tree::Tight),
+            tree: TreeOptions::of(TreeKind::Bvh8),
             view: ViewOptions {
                 size: None,
                 pixels_per_ray: PixelsPerRay::One,
@@ -94,7 +94,7 @@ impl Shot {
         };
         let job = RenderJob::in_memory(self.arith, self.tree, self.view, work);
         let progress = Progress::hidden();
-        octray::trace::trace(scene, &job, &progress, &Interrupt::new())
+        octray_render::trace::trace(scene, &job, &progress, &Interrupt::new())
             .unwrap_or_else(|e| panic!("{e}"))
     }
 }

@@ -2,10 +2,10 @@
 //!
 //! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
 
-use octray::metric::Difference;
+use octray_render::metric::Difference;
 use octray_core::octree::{Accelerator, Stack};
 use octray_core::scalar::{Approx, Fixed, Quantize};
-use octray_engine::options::Arith;
+use octray_prepare::Arith;
 use octray_scenes::model::Scene;
 use octray_prepare::quantise::{View, quantise};
 use octray_prepare::tree::{Growth, TightTree};

@@ -1,7 +1,7 @@
 //! `octray render` end to end: what it writes, what it prints, how it ends.
 
-use octray::metric::Difference;
-use octray::picture::{self, Picture};
+use octray_render::metric::Difference;
+use octray_render::picture::{self, Picture};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

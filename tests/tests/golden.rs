@@ -2,10 +2,10 @@
 //!
 //! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
 
-use octray::interrupt::Interrupt;
-use octray::metric::Difference;
-use octray::picture::{self, RasDepth, Target};
-use octray_engine::options::Arith;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::picture::{self, RasDepth, Target};
+use octray_prepare::Arith;
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;

@@ -1,8 +1,8 @@
 //! In `f64` octray makes the oracle's picture: at least 99.9 % of the pixels within one level, and
 //! as many rays of each kind but for a few.
 
-use octray::stats::Rays;
-use octray_engine::options::{Arith, PixelsPerRay};
+use octray_render::stats::Rays;
+use octray_prepare::{Arith, PixelsPerRay};
 use octray_tests::oracle::{self, Counts};
 use octray_tests::shot::{self, Shot};
 use octray_tests::strew;

@@ -2,7 +2,7 @@
 //! bit, in every arithmetic.
 
 use fastrand::Rng;
-use octray::stats::Rays;
+use octray_render::stats::Rays;
 use octray_core::observe::Counters;
 use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
 use octray_core::ray::{Bounds, Ray};
@@ -10,7 +10,7 @@ use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_core::shape::ObjectRef;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::{Axis, Vec3, vec3};
-use octray_engine::options::{self, Arith, Tree};
+use octray_prepare::{self, Arith, TreeKind};
 use octray_scenes::generate::{Kind, Spec};
 use octray_prepare::quantise::{Prepared, Quantised, View, quantise};
 use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
@@ -57,8 +57,8 @@ fn pictures_are_the_same() {
                 let traced = shot.take(&scene);
                 (traced.picture.levels().to_vec(), Rays::of(&traced.counters))
             };
-            let (picture, rays) = take(Tree::None, 0, options::Link::Shape);
-            for kind in [Tree::Tight, Tree::Packed, Tree::Modified, Tree::Plain] {
+            let (picture, rays) = take(TreeKind::None, 0, options::Link::Shape);
+            for kind in [TreeKind::Bvh8, TreeKind::CompactBvh8, TreeKind::Modified, TreeKind::Plain] {
                 for (arena, link) in [
                     (0, options::Link::Shape),
                     (0, options::Link::Box),

@@ -2,9 +2,10 @@
 
 use super::{files, value};
 use crate::diff::{Bounds, DiffJob, Share};
-use crate::error::Error;
-use crate::picture::{RasDepth, Target};
+use octray_render::error::Error;
+use octray_render::picture::{RasDepth, Target};
 use clap::Args;
+use octray_prepare::choice::Choice;
 use std::path::PathBuf;
 
 /// Arguments of `octray diff`.
@@ -24,7 +25,7 @@ pub struct DiffArgs {
     #[arg(short, long, value_name = "FILE", value_parser = value::target())]
     output: Option<Target>,
     /// Bits per pixel of a heat map that is a Sun rasterfile
-    #[arg(long, value_name = "BITS", value_enum, default_value_t)]
+    #[arg(long, value_name = "BITS", value_parser = value::choice::<RasDepth>(), default_value = RasDepth::default().name())]
     ras_depth: RasDepth,
     /// Print one JSON object instead of text
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! The files that arguments name: no result is written over what is read, or over another result.
 
-use crate::error::Error;
+use octray_render::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf, absolute};
 

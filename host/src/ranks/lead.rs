@@ -1,25 +1,25 @@
 //! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
-use crate::cost;
-use crate::deal::Deal;
-use crate::error::Error;
-use crate::interrupt::Interrupt;
-use crate::job::{RenderJob, WorkOptions};
-use crate::packets::Part;
-use crate::packing;
-use crate::picture::Picture;
-use crate::progress::Progress;
-use crate::render::Traced;
-use crate::stats::{Messages, Work};
-use crate::trace;
+use octray_render::cost;
+use octray_render::deal::Deal;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use crate::job::RenderJob;
+use octray_render::work::WorkOptions;
+use octray_render::packets::Part;
+use octray_render::picture::Picture;
+use octray_render::progress::Progress;
+use octray_render::trace::Traced;
+use octray_render::stats::{Messages, Work};
+use octray_render::trace;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use octray_core::scalar;
-use octray_engine as engine;
+use octray_render::engine;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -66,37 +66,32 @@ impl<'a> Leader<'a> {
         &mut self,
         scene: &Scene,
         job: &RenderJob,
-        progress: &Progress,
+        progress: &dyn Progress,
         interrupt: &Interrupt,
     ) -> Result<Traced, Error> {
         let begin = Instant::now();
-        let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
+        let engine = engine::build(scene, &job.settings)?;
         let build = begin.elapsed();
         let begin = Instant::now();
         let (mut picture, region) = trace::blank(&*engine, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
-        let work = WorkOptions {
-            threads,
-            ..job.work
-        };
-        let packing = packing::choose(&*engine, &region, &work, interrupt)?;
-        let parts: Vec<_> = packing.shape.cut(&region).collect();
+        // A message costs so much that smaller tiles gain nothing.
+        let shape = job.work.packet.unwrap_or(WorkOptions::TILE);
+        let parts: Vec<_> = shape.cut(&region).collect();
+        let order = trace::order(&*engine, job.work.policy, &parts, interrupt)?;
         let intensities = job.output.holds_intensities();
         if parts
             .first()
             .is_some_and(|part| buffer(part, intensities).is_none())
         {
-            let shape = packing.shape;
             let why = format!("packets of {shape} are too large to be sent: choose smaller ones");
             return Err(failed(why));
         }
         let plan = Plan {
             scene: Cow::Borrowed(scene),
-            arith: job.arith,
-            tree: job.tree,
-            view: job.view,
-            shape: packing.shape,
+            settings: job.settings,
+            shape,
             intensities,
         };
         broadcast(self.world, Some(&plan));
@@ -108,7 +103,7 @@ impl<'a> Leader<'a> {
         let (counters, busy, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
-                deal: Deal::new(packing.policy, count, threads, packing.order),
+                deal: Deal::new(job.work.policy, count, threads, order),
                 parts,
                 picture: &mut picture,
                 progress,
@@ -137,10 +132,9 @@ impl<'a> Leader<'a> {
         let idle = |tally: &Tally| (dealing - tally.busy).max(0.0);
         let work = Work {
             threads: ranks,
-            schedule: packing.policy,
-            packet: packing.shape,
+            schedule: job.work.policy,
+            packet: shape,
             packets: count,
-            forecast: packing.forecast,
             messages: Some(messages),
             idle: tallies.iter().map(idle).collect(),
         };
@@ -162,7 +156,7 @@ struct Desk<'a> {
     deal: Deal,
     parts: Vec<Region>,
     picture: &'a mut Picture,
-    progress: &'a Progress,
+    progress: &'a dyn Progress,
     messages: Messages,
     /// What the other ranks did, once they have told.
     tallies: Vec<Option<Tally>>,

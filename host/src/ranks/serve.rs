@@ -3,16 +3,16 @@
 use super::{
     IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, buffer, failed, pause,
 };
-use crate::error::Error;
-use crate::interrupt::Interrupt;
-use crate::packets::Part;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::packets::Part;
 use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::Process;
 use mpi::traits::{Communicator, Destination};
 use octray_core::packet::Region;
 use octray_core::scalar;
-use octray_engine::{self as engine, Worker};
+use octray_render::engine::{self as engine, Worker};
 use std::time::{Duration, Instant};
 
 /// Works for the first rank until there is nothing left.
@@ -29,7 +29,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         return Ok(());
     };
     drop(bytes);
-    let engine = engine::build(&plan.scene, plan.arith, &plan.tree, &plan.view)?;
+    let engine = engine::build(&plan.scene, &plan.settings)?;
     let region = engine.built().region();
     let parts: Vec<_> = plan.shape.cut(&region).collect();
     // The first rank has found out that there is such a buffer.

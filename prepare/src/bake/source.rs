@@ -1,6 +1,6 @@
 //! The tables as Rust source.
 
-use super::{Literal, Options};
+use super::{BakeOptions, Literal};
 use crate::quantise::Prepared;
 use octray_core::camera::Projection;
 use octray_core::needs::{self, Needs};
@@ -22,7 +22,7 @@ pub(super) struct Tables<'a, S: Literal> {
     pub(super) links: &'a [ObjectRef],
     pub(super) needs: Needs,
     pub(super) rays: usize,
-    pub(super) options: &'a Options<'a>,
+    pub(super) options: &'a BakeOptions<'a>,
 }
 
 /// What finds the objects.
@@ -158,7 +158,7 @@ impl<S: Literal> Display for Tables<'_, S> {
 
 impl<S: Literal> Tables<'_, S> {
     fn head(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Options { name, view, .. } = self.options;
+        let BakeOptions { name, settings, .. } = self.options;
         let raw = S::RAW;
         let parts = self.prepared.frame.parts();
         let tree = match self.tree {
@@ -208,8 +208,8 @@ impl<S: Literal> Tables<'_, S> {
             S::NAME,
             parts.width,
             parts.height,
-            view.max_depth,
-            number(S::from_f64(self.options.cut_off)),
+            settings.max_depth,
+            number(S::from_f64(settings.cut_off)),
             self.rays,
             self.prepared.scene.lights.len(),
             self.links.len(),

@@ -1,23 +1,11 @@
 //! From the parsed camera to the tracer's, and which pixels can see anything.
 
 use super::{Extent, Placement, vector};
+use crate::settings::RenderSettings;
 use octray_scenes::model::{self, Point, Scene};
 use octray_core::camera::{Camera, Projection};
 use octray_core::packet::{Frame, Region};
 use octray_core::scalar::Quantize;
-
-/// What picture is to be made of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct View {
-    /// Columns and rows; the file's own if `None`. The framing stays.
-    pub size: Option<(u32, u32)>,
-    /// Pixels per ray: 1, or 4 in squares of two by two.
-    pub pixels_per_ray: u32,
-    /// K for K × K rays per pixel.
-    pub samples: u32,
-    /// The most bounces (they bound how heavy a ray can become).
-    pub max_depth: u32,
-}
 
 /// The camera in scene units: the picture spans −1 … 1 both ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,8 +58,8 @@ impl Rays {
     }
 }
 
-impl View {
-    /// Columns and rows of the picture.
+impl RenderSettings {
+    /// Columns and rows of the picture of a scene.
     pub fn size_of(&self, scene: &Scene) -> (u32, u32) {
         self.size.unwrap_or((scene.width, scene.height))
     }
@@ -134,7 +122,7 @@ impl View {
         placement: &Placement,
     ) -> Frame<S> {
         let (width, height) = self.size_of(scene);
-        let block = if self.pixels_per_ray == 4 { 2 } else { 1 };
+        let block = self.pixels_per_ray.side();
         let camera = if rays.parallel {
             Camera {
                 origin: vector(placement.point(rays.origin)),

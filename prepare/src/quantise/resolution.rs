@@ -1,7 +1,8 @@
 //! What is too fine for a format. A scene that fits a format can still be finer than what the
 //! format's directions tell apart: then methods break (`octray stability` shows where).
 
-use super::camera::{View, add, length, times};
+use super::camera::{add, length, times};
+use crate::settings::RenderSettings;
 use super::extent::{Extent, shape_box};
 use octray_scenes::model::{Point, Scene, Shape};
 use octray_core::scalar::Quantize;
@@ -54,7 +55,7 @@ const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 ///
 /// # Errors
 /// The first thing that is too fine.
-pub fn resolution<S: Quantize>(scene: &Scene, view: &View) -> Result<(), TooFine> {
+pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Result<(), TooFine> {
     let check = |value: f64, limit: f64, what: &dyn Fn() -> String| {
         if value >= limit {
             return Ok(());
@@ -68,11 +69,11 @@ pub fn resolution<S: Quantize>(scene: &Scene, view: &View) -> Result<(), TooFine
         })
     };
     let grain = grain::<S>();
-    let rays = view.rays(scene);
+    let rays = settings.rays(scene);
     let diagonal = Extent::of(scene, &rays).diagonal();
     let (pixel, whole) = match rays.is_parallel() {
-        true => (rays.pixel(view.size_of(scene)) / diagonal, "the scene"),
-        false => (rays.pixel(view.size_of(scene)), "a radian"),
+        true => (rays.pixel(settings.size_of(scene)) / diagonal, "the scene"),
+        false => (rays.pixel(settings.size_of(scene)), "a radian"),
     };
     let tips = !S::EXACT_ROOTS && scene.objects.iter().any(|object| has_tip(&object.shape));
     let least = if tips { TIP * grain } else { grain };
@@ -94,7 +95,7 @@ pub fn resolution<S: Quantize>(scene: &Scene, view: &View) -> Result<(), TooFine
         return Ok(());
     };
     for (i, surface) in scene.surfaces.iter().enumerate() {
-        let rays = path(surface.reflect.max(surface.refract), view.max_depth);
+        let rays = path(surface.reflect.max(surface.refract), settings.max_depth);
         check(LIGHT / rays, 0.5f64.powi(bits as i32 + 1), &|| {
             let i = i + 1;
             format!("what each of {rays:.0} rays by way of surface {i} may err by")

@@ -1,0 +1,126 @@
+//! A scene brought into its arithmetic, and the tree grown over it.
+
+use crate::engine::{Built, Engine, Octree};
+use crate::grown::Grown;
+use crate::ready::{Ready, intensity, level};
+use octray_core::octree::{self, Summary, Variant};
+use octray_core::scalar::Quantize;
+use octray_prepare::bake::Literal;
+use octray_prepare::format::{Format, InFormat};
+use octray_prepare::quantise::{self, Overflow, Prepared};
+use octray_prepare::settings::{Link, RenderSettings, TreeKind};
+use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_scenes::model::Scene;
+use std::num::NonZeroUsize;
+
+/// Why a scene could not be made ready.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// The scene does not fit the arithmetic.
+    #[error(transparent)]
+    Overflow(#[from] Overflow),
+    /// More objects than a packed tree can link.
+    #[error("a packed tree holds at most 32767 objects")]
+    Objects,
+}
+
+/// Makes a scene ready.
+///
+/// # Errors
+/// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the arithmetic or the tree.
+pub fn build(scene: &Scene, settings: &RenderSettings) -> Result<Box<dyn Engine>, Error> {
+    let format = settings.arith.format(scene, settings.max_depth);
+    let request = Request {
+        scene,
+        settings,
+        format,
+    };
+    format.dispatch(request)
+}
+
+/// What is to be made ready, in whatever arithmetic.
+struct Request<'a> {
+    scene: &'a Scene,
+    settings: &'a RenderSettings,
+    format: Format,
+}
+
+impl InFormat for Request<'_> {
+    type Output = Result<Box<dyn Engine>, Error>;
+
+    fn run<S: Literal>(self) -> Self::Output {
+        self.build::<S>()
+    }
+}
+
+impl Request<'_> {
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+        let mut prepared = quantise::quantise::<S>(self.scene, self.settings)?;
+        let tree = &self.settings.tree;
+        let growth = Growth {
+            options: tree.build_options(self.format, None),
+            arena: tree.arena.map(NonZeroUsize::get),
+        };
+        let variant = match tree.kind {
+            TreeKind::Bvh8 => {
+                let (tree, summary) = TightTree::build(&mut prepared.scene, &growth);
+                return Ok(self.ready(prepared, tree, summary));
+            }
+            TreeKind::CompactBvh8 => {
+                let (tree, summary) = PackedTree::build(&mut prepared.scene, &growth)
+                    .map_err(|_| Error::Objects)?;
+                return Ok(self.ready(prepared, tree, summary));
+            }
+            TreeKind::None => {
+                let all = every_object(&prepared.scene);
+                let summary = Summary {
+                    links: all.len() as u32,
+                    ..Summary::default()
+                };
+                return Ok(self.ready(prepared, all, summary));
+            }
+            TreeKind::Modified => Variant::Modified,
+            TreeKind::Plain => Variant::Plain,
+        };
+        let link = match tree.link {
+            Link::Shape => octree::Link::Shape,
+            Link::Box => octree::Link::Box,
+        };
+        let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
+        Ok(self.ready(prepared, tree, summary))
+    }
+
+    fn ready<S: Quantize, T: Grown<S> + 'static>(
+        &self,
+        prepared: Prepared<S>,
+        tree: T,
+        summary: Summary,
+    ) -> Box<dyn Engine> {
+        let background = prepared.scene.background;
+        let built = Built {
+            format: self.format,
+            scale: prepared.placement.exponent,
+            too_fine: quantise::resolution::<S>(self.scene, self.settings)
+                .err()
+                .map(|fine| fine.to_string()),
+            octree: Octree {
+                kind: self.settings.tree.kind,
+                nodes: u64::from(summary.inner + summary.leaves),
+                links: u64::from(summary.links),
+                depth: summary.depth,
+                unsplit: u64::from(summary.unsplit),
+            },
+            size: self.settings.size_of(self.scene),
+            active: prepared.frame.active().clone(),
+            block: prepared.frame.block(),
+            background: (level(background), intensity(background)),
+        };
+        Box::new(Ready {
+            prepared,
+            tree,
+            built,
+            max_depth: self.settings.max_depth,
+            cut_off: S::from_f64(self.settings.cut_off),
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! A scene in some arithmetic with some tree, and what one thread traces it with.
+
+use crate::apart::Apart;
+use crate::grown::Grown;
+use crate::packet::{Intensity, Level, Packet};
+use crate::engine::{Built, Engine, FirstHit, Worker};
+use octray_core::observe::Counters;
+use octray_core::octree::Accelerator;
+use octray_core::packet::Region;
+use octray_core::scalar::Quantize;
+use octray_core::shape::ObjectRef;
+use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::vec3::Vec3;
+use octray_prepare::quantise::Prepared;
+
+/// A scene in arithmetic `S` with a tree.
+pub(crate) struct Ready<S: Quantize, T> {
+    pub(crate) prepared: Prepared<S>,
+    pub(crate) tree: T,
+    pub(crate) built: Built,
+    pub(crate) max_depth: u32,
+    pub(crate) cut_off: S,
+}
+
+impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
+    fn built(&self) -> &Built {
+        &self.built
+    }
+
+    fn worker(&self) -> Box<dyn Worker + '_> {
+        let scene = &self.prepared.scene;
+        Box::new(Tracing {
+            ready: self,
+            tree: self.tree.view(),
+            rays: Apart::new(Pending::EMPTY, self.max_depth as usize + 2),
+            stack: Default::default(),
+            blockers: Apart::new(None, scene.lights.len()),
+            counters: Counters::default(),
+        })
+    }
+}
+
+/// What one thread traces with, in cache lines of its own as [`Apart`] has it.
+#[repr(align(128))]
+struct Tracing<'a, S: Quantize, T: Grown<S>> {
+    ready: &'a Ready<S, T>,
+    tree: T::View<'a>,
+    rays: Apart<Pending<S>>,
+    stack: Stack<'a, S, T>,
+    blockers: Apart<Option<ObjectRef>>,
+    counters: Counters,
+}
+
+/// What the walk through a tree needs.
+type Stack<'a, S, T> = <<T as Grown<S>>::View<'a> as Accelerator<S>>::Stack;
+
+impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
+    /// Does something with what it takes to trace a ray.
+    fn with<R>(
+        &mut self,
+        work: impl FnOnce(
+            &Tracer<'_, S, T::View<'a>>,
+            &mut Workspace<'_, S, Stack<'a, S, T>>,
+            &mut Counters,
+        ) -> R,
+    ) -> R {
+        let scene = self.ready.prepared.scene.scene();
+        let tracer = Tracer {
+            scene: &scene,
+            accelerator: &self.tree,
+            max_depth: self.ready.max_depth,
+            cut_off: self.ready.cut_off,
+        };
+        let mut workspace = Workspace {
+            rays: self.rays.get(),
+            stack: &mut self.stack,
+            blockers: self.blockers.get(),
+        };
+        work(&tracer, &mut workspace, &mut self.counters)
+    }
+
+    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
+        let frame = &self.ready.prepared.frame;
+        self.with(|tracer, workspace, counters| {
+            frame.render_region(region, tracer, workspace, counters, put);
+        });
+    }
+}
+
+impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
+    fn trace(&mut self, packet: Packet<'_>) {
+        let Packet {
+            region,
+            levels,
+            mut intensities,
+        } = packet;
+        let background = self.ready.built.background;
+        levels.fill(background.0);
+        if let Some(intensities) = &mut intensities {
+            intensities.fill(background.1);
+        }
+        // What blocked the lights last in another packet must not change what is counted in this one.
+        self.blockers.get().fill(None);
+        let (left, top) = (region.columns.start, region.rows.start);
+        let width = region.columns.len();
+        self.render(&region, |x, y, colour| {
+            let pixel = (y - top) as usize * width + (x - left) as usize;
+            levels[pixel] = level(colour);
+            if let Some(intensities) = &mut intensities {
+                intensities[pixel] = intensity(colour);
+            }
+        });
+    }
+
+    fn probe(&mut self, region: &Region) {
+        self.render(region, |_, _, _| {});
+    }
+
+    fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>> {
+        let ready = self.ready;
+        let (frame, unit) = (
+            &ready.prepared.frame,
+            (-f64::from(ready.built.scale)).exp2(),
+        );
+        let samples = frame.parts().samples;
+        let columns = (0..ready.built.size.0).step_by(frame.block() as usize);
+        let place = |column| {
+            let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
+            inside.map(move |(x, y)| frame.place(column, row, x, y))
+        };
+        self.with(|tracer, workspace, counters| {
+            let hit = |(x, y)| {
+                let ray = frame.camera().row(y).ray(x);
+                let hit = tracer.nearest(&ray, workspace, counters)?;
+                Some(FirstHit {
+                    object: tracer.scene.attributes_of(hit.object).id,
+                    distance: hit.t.to_f64() * unit,
+                })
+            };
+            columns.flat_map(place).map(hit).collect()
+        })
+    }
+
+    fn counters(&self) -> &Counters {
+        &self.counters
+    }
+}
+
+pub(crate) fn level<S: Quantize>(colour: Vec3<S>) -> Level {
+    colour.to_array().map(S::level)
+}
+
+pub(crate) fn intensity<S: Quantize>(colour: Vec3<S>) -> Intensity {
+    colour.to_array().map(|x| x.to_f64().clamp(0.0, 1.0) as f32)
+}

@@ -1,0 +1,277 @@
+//! How well two threads share a picture: measured, beside what the simulation expects of this machine.
+//!
+//! `cargo bench -p octray --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at
+//! 512 × 512 in f32. Every round takes each scene in turn: on the first core, on the second, on both at once
+//! by threads that have nothing to do with each other, and in each of [`PACKINGS`] by two threads that share the
+//! picture and by one alone. What two cores lose against one where nothing is shared is the contention that
+//! the simulation is given, and 2 / (1 + contention) is all that this machine allows. Speed-ups are over one
+//! thread that takes the same packets, since some shapes take fewer instructions than others; the last but one
+//! column is over the fastest thread whatever its packets. Figures are medians over the rounds. It fails if a
+//! picture is another than on one thread.
+
+mod common {
+    pub(crate) mod table;
+    pub(crate) mod timing;
+}
+
+use clap::Parser;
+use comfy_table::CellAlignment;
+use common::table::table;
+use common::timing::{job, median};
+use octray_render::cost::{CostMap, dearest_first};
+use octray_render::deal::Deal;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray::job::{RenderJob, WorkOptions};
+use octray::packing::{HAND_OUT, PER_PACKET};
+use octray::render::Traced;
+use octray_lab::simulate::{Machine, simulate};
+use octray::{check, threads, trace};
+use octray_engine as engine;
+use octray_scenes::model::Scene;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::Path;
+use std::process::ExitCode;
+use std::thread;
+
+/// How large every picture is.
+const SIZE: &str = "--size 512x512";
+
+const FIGURES: [u32; 5] = [19, 20, 21, 22, 23];
+
+/// Ways to share a picture: an uneven one, a coarse one, a fine one, and the one that is chosen, which probes first.
+const PACKINGS: [(&str, &str); 4] = [
+    ("two halves", "--schedule prescheduled --packet-rows 4"),
+    ("8 strips", "--schedule dynamic --packet-rows 64"),
+    (
+        "tiles",
+        "--schedule dynamic --packet-rows 16 --packet-columns 16",
+    ),
+    ("chosen", ""),
+];
+
+/// Compare the speed-up of two threads with what the simulation expects
+#[derive(Debug, Parser)]
+#[command(name = "threads")]
+struct Args {
+    /// How often each scene is rendered in each way
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Given by cargo
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<(), Error> {
+    let mut subjects = FIGURES
+        .into_iter()
+        .map(Subject::new)
+        .collect::<Result<Vec<_>, _>>()?;
+    for round in 1..=args.rounds {
+        eprintln!("round {round} of {}", args.rounds);
+        for subject in &mut subjects {
+            let sample = subject.measure()?;
+            subject.samples.push(sample);
+        }
+    }
+    let mut table = table(&[
+        "scene",
+        "machine allows",
+        "one thread, ms",
+        "measured",
+        "expected",
+        "difference",
+        "over the fastest thread",
+        "shared by two threads",
+        "picture",
+    ]);
+    for subject in &subjects {
+        for row in subject.rows()? {
+            table.add_row(row);
+        }
+    }
+    for column in table.column_iter_mut().skip(7) {
+        column.set_cell_alignment(CellAlignment::Left);
+    }
+    println!("{table}");
+    Ok(())
+}
+
+/// A scene, and what it took in each round.
+struct Subject {
+    name: String,
+    scene: Scene,
+    /// As one thread packs it if nothing is asked for.
+    fixed: RenderJob,
+    packings: Vec<Packing>,
+    samples: Vec<Sample>,
+}
+
+/// A way to share a picture.
+struct Packing {
+    name: &'static str,
+    shared: RenderJob,
+    /// The same packets on one thread.
+    alone: RenderJob,
+}
+
+/// One round; seconds on one core are the mean of both.
+struct Sample {
+    /// On one core, as one thread packs it.
+    fixed: f64,
+    /// On both at once, each for a picture of its own.
+    beside: f64,
+    /// What came of each packing, and the seconds that it took on one core.
+    packed: Vec<(Traced, f64)>,
+}
+
+impl Subject {
+    fn new(figure: u32) -> Result<Self, Error> {
+        let name = format!("figure-{figure}");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+        let path = folder.join(&name).with_extension("scene");
+        let scene = check::read(&path)?;
+        let packing = |(name, options): (&'static str, &str)| -> Result<Packing, Error> {
+            let shared = job(&path, &format!("{SIZE} --threads 2 --pin {options}"))?;
+            let work = on_its_own(|| trace(&scene, &shared))?.work;
+            let alone = RenderJob {
+                work: WorkOptions {
+                    threads: NonZeroUsize::MIN,
+                    policy: Some(work.schedule),
+                    packet: Some(work.packet),
+                    pin: false,
+                    ..shared.work
+                },
+                ..shared.clone()
+            };
+            Ok(Packing {
+                name,
+                shared,
+                alone,
+            })
+        };
+        Ok(Self {
+            name,
+            fixed: job(&path, &format!("{SIZE} --threads 1"))?,
+            packings: PACKINGS
+                .into_iter()
+                .map(packing)
+                .collect::<Result<_, _>>()?,
+            scene,
+            samples: Vec::new(),
+        })
+    }
+
+    fn measure(&self) -> Result<Sample, Error> {
+        let on = |core: usize, job: &RenderJob| -> Result<Traced, Error> {
+            threads::pin(core)?;
+            trace(&self.scene, job)
+        };
+        let mean = |a: &Traced, b: &Traced| (a.render + b.render).as_secs_f64() / 2.0;
+        let each = |job: &RenderJob| -> Result<(Traced, f64), Error> {
+            let first = on_its_own(|| on(0, job))?;
+            let second = on_its_own(|| on(1, job))?;
+            let seconds = mean(&first, &second);
+            Ok((first, seconds))
+        };
+        let (first, fixed) = each(&self.fixed)?;
+        let (left, right) = thread::scope(|scope| {
+            let left = scope.spawn(|| on(0, &self.fixed));
+            let right = scope.spawn(|| on(1, &self.fixed));
+            (joined(left), joined(right))
+        });
+        let packed = self.packings.iter().map(|packing| {
+            let (_, alone) = each(&packing.alone)?;
+            let traced = on_its_own(|| trace(&self.scene, &packing.shared))?;
+            match traced.picture == first.picture {
+                true => Ok((traced, alone)),
+                false => Err(Error::Failed(format!("{}: another picture", self.name))),
+            }
+        });
+        Ok(Sample {
+            fixed,
+            beside: mean(&left?, &right?),
+            packed: packed.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What was measured of each packing, and what the simulation expects of it.
+    fn rows(&self) -> Result<Vec<[String; 9]>, Error> {
+        let samples = &self.samples;
+        let contention = median(samples, |s| s.beside / s.fixed) - 1.0;
+        let alone = |i: usize| median(samples, |s| s.packed[i].1);
+        let fastest = (0..self.packings.len())
+            .map(alone)
+            .fold(median(samples, |s| s.fixed), f64::min);
+        let row = |(i, packing): (usize, &Packing)| {
+            let seconds = |s: &Sample| s.packed[i].0.render.as_secs_f64();
+            let measured = median(samples, |s| s.packed[i].1 / seconds(s));
+            let traced = &samples[0].packed[i].0;
+            let expected = self.expected(traced, contention.max(0.0))?;
+            let work = &traced.work;
+            Ok([
+                self.name.clone(),
+                format!("{:.3}", 2.0 / (1.0 + contention)),
+                format!("{:.1}", alone(i) * 1e3),
+                format!("{measured:.3}"),
+                format!("{expected:.3}"),
+                format!("{:+.1} %", 100.0 * (expected / measured - 1.0)),
+                format!("{:.3}", fastest / median(samples, seconds)),
+                format!(
+                    "{}: {}, {}",
+                    packing.name,
+                    work.packet,
+                    work.schedule.name()
+                ),
+                format!("{:016x}", traced.picture.hash()),
+            ])
+        };
+        self.packings.iter().enumerate().map(row).collect()
+    }
+
+    /// The speed-up that the simulation expects, knowing what each pixel costs.
+    fn expected(&self, traced: &Traced, contention: f64) -> Result<f64, Error> {
+        let job = &self.fixed;
+        let engine = engine::build(&self.scene, job.arith, &job.tree, &job.view)?;
+        let map = CostMap::probe(&*engine, NonZeroU32::MIN, &Interrupt::new())?;
+        let work = &traced.work;
+        let region = engine.built().region();
+        let parts = work.packet.cut(&region);
+        let costs: Vec<_> = parts.map(|part| map.cost(&part) + PER_PACKET).collect();
+        let two = const { NonZeroUsize::new(2).unwrap() };
+        let order = dearest_first(&costs);
+        let deal = Deal::new(work.schedule, costs.len(), two, order);
+        let machine = Machine {
+            hand_out: HAND_OUT,
+            contention,
+            ..Machine::default()
+        };
+        Ok(simulate(&costs, &deal, &machine).speed_up)
+    }
+}
+
+fn trace(scene: &Scene, job: &RenderJob) -> Result<Traced, Error> {
+    trace::trace(scene, job, &(), &Interrupt::new())
+}
+
+/// Does something on a thread of its own, since pinning lasts.
+fn on_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    thread::scope(|scope| joined(scope.spawn(work)))
+}
+
+fn joined<T>(handle: thread::ScopedJoinHandle<'_, T>) -> T {
+    match handle.join() {
+        Ok(value) => value,
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}

@@ -1,0 +1,151 @@
+//! Where scenes are traced for the tables, each variant once.
+
+use super::subject::{Subject, Trial};
+use octray_render::cost::{self, CostMap};
+use octray_render::deal::Policy;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::work::WorkOptions;
+use octray_render::packets::Shape;
+use octray_render::trace::Traced;
+use octray_render::stats::Rays;
+use octray_render::trace::trace;
+use octray_core::packet::Region;
+use octray_render::engine;
+use octray_prepare::{RenderSettings, TreeSettings};
+use std::cell::RefCell;
+use std::num::{NonZeroU32, NonZeroUsize};
+
+/// Traces, and remembers what came out.
+#[derive(Debug)]
+pub struct Lab<'a> {
+    /// Columns and rows; the scenes' own if `None`.
+    pub size: Option<(u32, u32)>,
+    /// Whether time is taken, for which one thread works.
+    pub time: bool,
+    /// Ctrl-C.
+    pub interrupt: &'a Interrupt,
+    seen: RefCell<Vec<(Trial, Tally)>>,
+}
+
+/// What was counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tally {
+    /// Pixels of the picture.
+    pub pixels: u64,
+    /// Rays by kind.
+    pub rays: Rays,
+    /// Voxels that rays went through.
+    pub steps: u64,
+    /// Surfaces that rays were tested against.
+    pub tests: u64,
+    /// Instructions, by [`cost::cost`].
+    pub instructions: f64,
+    /// Time to trace, in seconds.
+    pub seconds: f64,
+}
+
+impl<'a> Lab<'a> {
+    /// Nothing is traced yet.
+    pub fn new(size: Option<(u32, u32)>, time: bool, interrupt: &'a Interrupt) -> Self {
+        Self {
+            size,
+            time,
+            interrupt,
+            seen: RefCell::default(),
+        }
+    }
+
+    /// What tracing a scene takes, in f32.
+    ///
+    /// # Errors
+    /// As [`trace`].
+    pub fn tally(&self, trial: Trial) -> Result<Tally, Error> {
+        let known = |seen: &Vec<(Trial, Tally)>| {
+            let found = seen.iter().find(|(other, _)| *other == trial);
+            found.map(|(_, tally)| *tally)
+        };
+        if let Some(tally) = known(&self.seen.borrow()) {
+            return Ok(tally);
+        }
+        let mut work = WorkOptions {
+            policy: Policy::Dynamic,
+            packet: Some(Shape::strip(const { NonZeroU32::new(4).unwrap() })),
+            ..WorkOptions::default()
+        };
+        if self.time {
+            work.threads = NonZeroUsize::MIN;
+        }
+        let (scene, settings) = (trial.scene()?, self.settings(&trial));
+        let traced = trace(&scene, &settings, &work, false, &(), self.interrupt)?;
+        let tally = Tally::of(&traced);
+        self.seen.borrow_mut().push((trial, tally));
+        Ok(tally)
+    }
+
+    /// How many trials have been traced.
+    #[cfg(test)]
+    pub(super) fn traced(&self) -> usize {
+        self.seen.borrow().len()
+    }
+
+    /// What each pixel of a scene costs, and the rows that cost anything.
+    ///
+    /// # Errors
+    /// As [`engine::build`] and [`CostMap::probe`].
+    pub fn map(&self, subject: Subject) -> Result<(CostMap, Region), Error> {
+        let trial = Trial::of(subject);
+        let engine = engine::build(&trial.scene()?, &self.settings(&trial))?;
+        let map = CostMap::probe(&*engine, NonZeroU32::MIN, self.interrupt)?;
+        Ok((map, engine.built().region()))
+    }
+
+    /// The defaults of `octray render`.
+    fn settings(&self, trial: &Trial) -> RenderSettings {
+        RenderSettings {
+            tree: TreeSettings::of(trial.tree),
+            size: self.size.map(|size| trial.resized(size)),
+            pixels_per_ray: trial.pixels_per_ray,
+            ..RenderSettings::DEFAULT
+        }
+    }
+}
+
+impl Tally {
+    fn of(traced: &Traced) -> Self {
+        let counters = &traced.counters;
+        Self {
+            pixels: traced.picture.levels().len() as u64,
+            rays: Rays::of(counters),
+            steps: counters.steps(),
+            tests: counters.tests(),
+            instructions: cost::cost(counters),
+            seconds: traced.render.as_secs_f64(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::subject::FIGURES;
+    use super::*;
+
+    #[test]
+    fn the_cost_of_a_trial_is_that_of_its_map() {
+        let interrupt = Interrupt::new();
+        let lab = Lab::new(Some((48, 32)), false, &interrupt);
+        let tally = lab.tally(Trial::of(FIGURES[2])).unwrap();
+        let (map, _) = lab.map(FIGURES[2]).unwrap();
+        // What blocked a light last is forgotten between packets, and tests of boxes are dear: 4 % in so small a
+        // picture.
+        let beyond = map.total() / tally.instructions - 1.0;
+        assert!(beyond.abs() < 0.05, "{beyond}");
+        assert_eq!(tally.pixels, 48 * 32);
+        let larger = Trial {
+            larger: true,
+            ..Trial::of(FIGURES[2])
+        };
+        assert_eq!(lab.tally(larger).unwrap().pixels, 60 * 40);
+        assert_eq!(lab.traced(), 2);
+    }
+}
