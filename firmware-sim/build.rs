@@ -125,7 +125,10 @@ fn baked() -> Result<String, String> {
 }
 
 fn cut_off() -> Result<f64, String> {
-    let text = variable("OCTRAY_CUT_OFF", &RenderSettings::DEFAULT.cut_off.to_string());
+    let text = variable(
+        "OCTRAY_CUT_OFF",
+        &RenderSettings::DEFAULT.cut_off.to_string(),
+    );
     (text.parse().ok())
         .filter(|weight| (0.0..=1.0).contains(weight))
         .ok_or_else(|| format!("OCTRAY_CUT_OFF={text}: expected a number from 0 to 1"))

@@ -19,6 +19,8 @@ mod baked {
 
 #[cfg(not(target_os = "none"))]
 fn main() {
-    eprintln!("octray-firmware runs on boards: build it with --target thumbv6m-none-eabi, for example");
+    eprintln!(
+        "octray-firmware runs on boards: build it with --target thumbv6m-none-eabi, for example"
+    );
     std::process::exit(2);
 }

@@ -27,16 +27,7 @@ pub struct RenderJob {
 
 /// In which form statistics are printed.
 #[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    VariantArray,
-    EnumMessage,
-    EnumString,
-    IntoStaticStr,
+    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum StatsFormat {

@@ -9,10 +9,7 @@
 mod lead;
 mod serve;
 
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::job::RenderJob;
-use octray_render::packets::Shape;
 use crate::render;
 use lead::Leader;
 use mpi::point_to_point::{Message, Status};
@@ -21,7 +18,10 @@ use mpi::traits::{Communicator, Root, Source};
 use octray_core::observe::{Counters, Searches};
 use octray_core::packet::Region;
 use octray_prepare::RenderSettings;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 use octray_render::packet::{Intensity, Level};
+use octray_render::packets::Shape;
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -1,16 +1,16 @@
 //! `octray render`: read a scene, have it traced, write the picture, tell the cost.
 
+use crate::job::{RenderJob, StatsFormat};
+use crate::stats::{Seconds, Stats};
+use crate::summary::Summary;
+use octray_core::observe::RayKind;
 use octray_render::error::Error;
 use octray_render::facts::Facts;
 use octray_render::interrupt::Interrupt;
-use crate::job::{RenderJob, StatsFormat};
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
-use crate::stats::{Seconds, Stats};
-use crate::summary::Summary;
 use octray_render::stats::Rays;
 use octray_render::trace::{self, Traced};
-use octray_core::observe::RayKind;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
@@ -25,7 +25,14 @@ pub fn trace(
     interrupt: &Interrupt,
 ) -> Result<Traced, Error> {
     let intensities = job.output.holds_intensities();
-    trace::trace(scene, &job.settings, &job.work, intensities, progress, interrupt)
+    trace::trace(
+        scene,
+        &job.settings,
+        &job.work,
+        intensities,
+        progress,
+        interrupt,
+    )
 }
 
 /// Do `job`, the tracing itself being done by `trace`.
@@ -89,12 +96,12 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octray_render::picture::{self, RasDepth, Target};
     use octray_core::observe::Counters;
     use octray_prepare::{Format, RenderSettings, TreeKind, TreeSettings};
     use octray_render::deal::Policy;
     use octray_render::engine::Octree;
     use octray_render::picture::Picture;
+    use octray_render::picture::{self, RasDepth, Target};
     use octray_render::stats::Work;
     use octray_render::work::WorkOptions;
     use std::fs;

@@ -1,7 +1,7 @@
 //! The statistics of a rendering as a summary to read.
 
-use octray_render::facts::thousands;
 use crate::stats::Stats;
+use octray_render::facts::thousands;
 use octray_render::stats::Messages;
 use std::fmt;
 
@@ -171,7 +171,7 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octray_render::stats::tests::example;
+    use crate::stats::tests::example;
     use snapbox::{assert_data_eq, str};
 
     #[test]

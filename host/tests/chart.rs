@@ -1,4 +1,5 @@
 //! `octray chart` end to end.
+#![cfg(feature = "lab")]
 
 use serde_json::Value;
 use snapbox::cmd::cargo_bin;
@@ -116,7 +117,8 @@ fn the_command_of_a_point_renders_its_picture() {
             octray_render::picture::read(&folder.path().join("a.ppm")).unwrap()
         })
         .collect();
-    let difference = octray_render::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
+    let difference =
+        octray_render::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
     let point = &points(folder.path(), "a.json")[1];
     assert_eq!(point["psnr"].as_f64(), Some(difference.psnr()));
 }

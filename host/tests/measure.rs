@@ -1,5 +1,6 @@
 //! `octray measure` end to end: on two boards where their emulators are installed, and what is said
 //! where they are not.
+#![cfg(feature = "lab")]
 
 use snapbox::cmd::cargo_bin;
 use std::path::Path;

@@ -1,10 +1,11 @@
 //! The panel simulator end to end: what it draws, what it writes, and its exit codes.
+#![cfg(feature = "lab")]
 
 use clap::Parser;
 use octray::cli::{Cli, Command as Subcommand};
 use octray_render::interrupt::Interrupt;
-use octray_render::picture::{self, Picture};
 use octray_render::packet::Level;
+use octray_render::picture::{self, Picture};
 use snapbox::cmd::{Command, cargo_bin};
 use snapbox::str;
 use std::collections::BTreeSet;
@@ -18,7 +19,8 @@ fn scene(name: &str) -> PathBuf {
 }
 
 fn panel(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray-firmware"))
+    Command::new(cargo_bin!("octray"))
+        .arg("panel")
         .current_dir(folder)
         .args(line.split_whitespace())
 }
@@ -44,7 +46,7 @@ fn rendered(line: &str) -> Picture {
     octray::render::run(
         &args.job().unwrap(),
         &Interrupt::new(),
-        octray_render::trace::trace,
+        octray::render::trace,
     )
     .unwrap();
     picture::read(Path::new(output)).unwrap()

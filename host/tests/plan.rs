@@ -1,19 +1,20 @@
 //! `octray plan`: its plans keep what they promise, are as small as they can be, and cost what they say.
+#![cfg(feature = "lab")]
 
-use octray::check;
-use octray_render::interrupt::Interrupt;
 use octray_lab::measure::board::{BOARDS, Board};
-use octray_render::metric::Difference;
-use octray_lab::plan::accuracy::FORMATS;
+use octray_lab::plan::accuracy::fixed_point;
 use octray_lab::plan::comb::comb;
 use octray_lab::plan::events::Probe;
 use octray_lab::plan::job::{Bounds, Numbers, PlanJob, memory};
 use octray_lab::plan::model::Model;
 use octray_lab::plan::record;
-use octray_prepare::bake::{Tree, bake};
+use octray_prepare::bake::bake;
+use octray_prepare::plan::Plan;
+use octray_prepare::{Format, PixelsPerRay};
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
-use octray_prepare::plan::Plan;
 use snapbox::cmd::cargo_bin;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,7 @@ fn scenes() -> Vec<(String, Scene)> {
     let figures = (19..=23).map(|number| {
         let name = format!("figure-{number}");
         let path = root().join("scenes").join(&name).with_extension("scene");
-        (name, check::read(&path).unwrap())
+        (name, octray_scenes::read(&path).unwrap())
     });
     let generated = Kind::ALL.into_iter().map(|kind| {
         let scene = generate(Spec { kind, objects: 30 }, 1);
@@ -73,41 +74,46 @@ fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
         let report = octray_lab::plan::plan(&job, &scene, &Interrupt::default()).unwrap();
         assert!(report.failures.is_empty(), "{name}: {:?}", report.failures);
         let plan = report.plan.unwrap();
-        let with = |arith, pixels_per_ray, max_depth| Plan {
-            arith,
+        let with = |format, pixels_per_ray, max_depth| Plan {
+            format,
             pixels_per_ray,
             max_depth,
             ..plan.clone()
         };
-        let exact = render(&scene, &with("f64", 1, 64)).picture;
+        let exact = render(&scene, &with(Format::F64, PixelsPerRay::One, 64)).picture;
         let psnr = |plan: &Plan| {
             let picture = render(&scene, plan).picture;
             Difference::between(&exact, &picture).unwrap().psnr()
         };
         assert!(psnr(&plan) >= MIN_PSNR, "{name}");
         // The depth loses nothing, and one less would.
-        let depth = |depth| render(&scene, &with("f64", 1, depth)).picture == exact;
+        let depth =
+            |depth| render(&scene, &with(Format::F64, PixelsPerRay::One, depth)).picture == exact;
         assert!(depth(plan.max_depth), "{name}");
         assert!(plan.max_depth == 0 || !depth(plan.max_depth - 1), "{name}");
         // Two bits less are too few, four pixels to a ray too coarse.
-        let at = FORMATS.iter().position(|(format, _)| *format == plan.arith);
-        if let Some((narrower, _)) = at.and_then(|at| FORMATS.get(at.checked_sub(1)?)) {
+        let formats: Vec<_> = fixed_point().collect();
+        let at = formats.iter().position(|format| *format == plan.format);
+        if let Some(narrower) = at.and_then(|at| formats.get(at.checked_sub(1)?)) {
             let narrower = with(*narrower, plan.pixels_per_ray, plan.max_depth);
             let too_fine = render(&scene, &narrower).too_fine.is_some();
             assert!(
                 too_fine || psnr(&narrower) < MIN_PSNR,
                 "{name}: {}",
-                plan.arith
+                plan.format
             );
         }
-        if plan.pixels_per_ray == 1 {
-            assert!(psnr(&with("f64", 4, plan.max_depth)) < MIN_PSNR, "{name}");
+        if plan.pixels_per_ray == PixelsPerRay::One {
+            assert!(
+                psnr(&with(Format::F64, PixelsPerRay::Four, plan.max_depth)) < MIN_PSNR,
+                "{name}"
+            );
         }
         // No capacity is larger than what is used: the arena, and the rays that wait.
         let probe = render(&scene, &plan);
         assert_eq!(plan.rays, probe.waiting, "{name}");
         assert_eq!((probe.saturations, probe.too_fine), (0, None), "{name}");
-        if let Tree::Packed(options) = plan.tree {
+        if let Some(options) = plan.tree {
             assert_eq!(options.depth, probe.depth, "{name}");
         }
     }
@@ -115,7 +121,7 @@ fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
 
 #[test]
 fn the_model_predicts_what_was_measured() {
-    let path = root().join("host/record/plan.csv");
+    let path = root().join("lab/record/plan.csv");
     let lines = record::read(fs::File::open(path).unwrap()).unwrap();
     let model = Model::shipped().unwrap();
     let mut checked = 0;
@@ -188,10 +194,10 @@ fn what_is_emitted_is_baked() {
     assert!(output.status.success());
     let plan: Plan = fs::read_to_string(&path).unwrap().parse().unwrap();
     let baked = octray(&format!("bake {scene} --plan {}", path.display()));
-    let read = check::read(&root().join(scene)).unwrap();
+    let read = octray_scenes::read(&root().join(scene)).unwrap();
     let expected = {
         let options = plan.options(&read, "figure-22").unwrap();
-        bake(&read, plan.arith, &options).unwrap()
+        bake(&read, &options).unwrap()
     };
     assert_eq!(String::from_utf8(baked.stdout).unwrap(), expected.source);
     assert_eq!(expected.rays, plan.rays);
@@ -289,18 +295,4 @@ fn what_no_format_can_do_is_told_with_the_reason() {
         assert_eq!(output.status.code(), Some(1), "{options}: {told}");
         assert!(told.contains(expected), "{options}: {told}");
     }
-}
-
-#[test]
-fn the_manual_shows_what_is_printed() {
-    let manual = fs::read_to_string(root().join("README.md")).unwrap();
-    let line = "plan scenes/figure-22.scene --target m0 --size 160x120";
-    let (_, shown) = manual
-        .split_once(&format!("    $ octray {line}\n"))
-        .unwrap();
-    let (shown, _) = shown.split_once("\n\n").unwrap();
-    let shown = shown.lines().map(|line| line.strip_prefix("    ").unwrap());
-    let output = octray(line);
-    let printed = String::from_utf8(output.stdout).unwrap();
-    assert!(shown.eq(printed.lines()), "{printed}");
 }

@@ -1,4 +1,5 @@
 //! `octray report` end to end, with costs that need no tool.
+#![cfg(feature = "lab")]
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

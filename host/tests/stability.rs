@@ -1,4 +1,5 @@
 //! `octray stability` end to end.
+#![cfg(feature = "lab")]
 
 use octray_render::picture;
 use serde_json::Value;

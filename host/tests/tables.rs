@@ -1,4 +1,5 @@
 //! `octray tables` end to end: what it prints, what it writes, and its exit codes.
+#![cfg(feature = "lab")]
 
 use snapbox::cmd::{Command, cargo_bin};
 use snapbox::{assert_data_eq, file, str};

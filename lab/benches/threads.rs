@@ -1,8 +1,8 @@
 //! How well two threads share a picture: measured, beside what the simulation expects of this machine.
 //!
-//! `cargo bench -p octray --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at
+//! `cargo bench -p octray-lab --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at
 //! 512 × 512 in f32. Every round takes each scene in turn: on the first core, on the second, on both at once
-//! by threads that have nothing to do with each other, and in each of [`PACKINGS`] by two threads that share the
+//! by threads that have nothing to do with each other, and in each of [`TILINGS`] by two threads that share the
 //! picture and by one alone. What two cores lose against one where nothing is shared is the contention that
 //! the simulation is given, and 2 / (1 + contention) is all that this machine allows. Speed-ups are over one
 //! thread that takes the same packets, since some shapes take fewer instructions than others; the last but one
@@ -11,44 +11,46 @@
 
 mod common {
     pub(crate) mod table;
-    pub(crate) mod timing;
 }
 
 use clap::Parser;
 use comfy_table::CellAlignment;
 use common::table::table;
-use common::timing::{job, median};
+use octray_lab::simulate::{HAND_OUT, PER_TILE};
+use octray_lab::simulate::{Machine, simulate};
+use octray_prepare::RenderSettings;
 use octray_render::cost::{CostMap, dearest_first};
-use octray_render::deal::Deal;
+use octray_render::deal::{Deal, Policy};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray::job::{RenderJob, WorkOptions};
-use octray::packing::{HAND_OUT, PER_PACKET};
-use octray::render::Traced;
-use octray_lab::simulate::{Machine, simulate};
-use octray::{check, threads, trace};
-use octray_engine as engine;
+use octray_render::packets::Shape;
+use octray_render::trace::{self, Traced};
+use octray_render::work::WorkOptions;
+use octray_render::{engine, threads};
 use octray_scenes::model::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::Path;
 use std::process::ExitCode;
 use std::thread;
 
-/// How large every picture is.
-const SIZE: &str = "--size 512x512";
+/// How every picture is rendered.
+const SETTINGS: RenderSettings = RenderSettings {
+    size: Some((512, 512)),
+    ..RenderSettings::DEFAULT
+};
 
 const FIGURES: [u32; 5] = [19, 20, 21, 22, 23];
 
-/// Ways to share a picture: an uneven one, a coarse one, a fine one, and the one that is chosen, which probes first.
-const PACKINGS: [(&str, &str); 4] = [
-    ("two halves", "--schedule prescheduled --packet-rows 4"),
-    ("8 strips", "--schedule dynamic --packet-rows 64"),
-    (
-        "tiles",
-        "--schedule dynamic --packet-rows 16 --packet-columns 16",
-    ),
-    ("chosen", ""),
+/// Ways to share a picture: an uneven one, a coarse one, and the default.
+const TILINGS: [(&str, Policy, Shape); 3] = [
+    ("two halves", Policy::Prescheduled, strip(4)),
+    ("8 strips", Policy::Dynamic, strip(64)),
+    ("tiles", Policy::Dynamic, WorkOptions::TILE),
 ];
+
+const fn strip(rows: u32) -> Shape {
+    Shape::strip(NonZeroU32::new(rows).unwrap())
+}
 
 /// Compare the speed-up of two threads with what the simulation expects
 #[derive(Debug, Parser)]
@@ -111,18 +113,7 @@ fn run(args: &Args) -> Result<(), Error> {
 struct Subject {
     name: String,
     scene: Scene,
-    /// As one thread packs it if nothing is asked for.
-    fixed: RenderJob,
-    packings: Vec<Packing>,
     samples: Vec<Sample>,
-}
-
-/// A way to share a picture.
-struct Packing {
-    name: &'static str,
-    shared: RenderJob,
-    /// The same packets on one thread.
-    alone: RenderJob,
 }
 
 /// One round; seconds on one core are the mean of both.
@@ -131,8 +122,8 @@ struct Sample {
     fixed: f64,
     /// On both at once, each for a picture of its own.
     beside: f64,
-    /// What came of each packing, and the seconds that it took on one core.
-    packed: Vec<(Traced, f64)>,
+    /// What came of each of [`TILINGS`], and the seconds that it took on one core.
+    tiled: Vec<(Traced, f64)>,
 }
 
 impl Subject {
@@ -140,83 +131,72 @@ impl Subject {
         let name = format!("figure-{figure}");
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
         let path = folder.join(&name).with_extension("scene");
-        let scene = check::read(&path)?;
-        let packing = |(name, options): (&'static str, &str)| -> Result<Packing, Error> {
-            let shared = job(&path, &format!("{SIZE} --threads 2 --pin {options}"))?;
-            let work = on_its_own(|| trace(&scene, &shared))?.work;
-            let alone = RenderJob {
-                work: WorkOptions {
-                    threads: NonZeroUsize::MIN,
-                    policy: Some(work.schedule),
-                    packet: Some(work.packet),
-                    pin: false,
-                    ..shared.work
-                },
-                ..shared.clone()
-            };
-            Ok(Packing {
-                name,
-                shared,
-                alone,
-            })
-        };
         Ok(Self {
             name,
-            fixed: job(&path, &format!("{SIZE} --threads 1"))?,
-            packings: PACKINGS
-                .into_iter()
-                .map(packing)
-                .collect::<Result<_, _>>()?,
-            scene,
+            scene: octray_scenes::read(&path)?,
             samples: Vec::new(),
         })
     }
 
     fn measure(&self) -> Result<Sample, Error> {
-        let on = |core: usize, job: &RenderJob| -> Result<Traced, Error> {
+        let on = |core: usize, work: &WorkOptions| -> Result<Traced, Error> {
             threads::pin(core)?;
-            trace(&self.scene, job)
+            trace(&self.scene, work)
         };
         let mean = |a: &Traced, b: &Traced| (a.render + b.render).as_secs_f64() / 2.0;
-        let each = |job: &RenderJob| -> Result<(Traced, f64), Error> {
-            let first = on_its_own(|| on(0, job))?;
-            let second = on_its_own(|| on(1, job))?;
+        let each = |work: &WorkOptions| -> Result<(Traced, f64), Error> {
+            let first = on_its_own(|| on(0, work))?;
+            let second = on_its_own(|| on(1, work))?;
             let seconds = mean(&first, &second);
             Ok((first, seconds))
         };
-        let (first, fixed) = each(&self.fixed)?;
+        let alone = WorkOptions {
+            threads: NonZeroUsize::MIN,
+            ..WorkOptions::default()
+        };
+        let (first, fixed) = each(&alone)?;
         let (left, right) = thread::scope(|scope| {
-            let left = scope.spawn(|| on(0, &self.fixed));
-            let right = scope.spawn(|| on(1, &self.fixed));
+            let left = scope.spawn(|| on(0, &alone));
+            let right = scope.spawn(|| on(1, &alone));
             (joined(left), joined(right))
         });
-        let packed = self.packings.iter().map(|packing| {
-            let (_, alone) = each(&packing.alone)?;
-            let traced = on_its_own(|| trace(&self.scene, &packing.shared))?;
+        let tiled = TILINGS.map(|(_, policy, shape)| {
+            let alone = WorkOptions {
+                policy,
+                packet: Some(shape),
+                ..alone
+            };
+            let shared = WorkOptions {
+                threads: const { NonZeroUsize::new(2).unwrap() },
+                pin: true,
+                ..alone
+            };
+            let (_, seconds) = each(&alone)?;
+            let traced = on_its_own(|| trace(&self.scene, &shared))?;
             match traced.picture == first.picture {
-                true => Ok((traced, alone)),
+                true => Ok((traced, seconds)),
                 false => Err(Error::Failed(format!("{}: another picture", self.name))),
             }
         });
         Ok(Sample {
             fixed,
             beside: mean(&left?, &right?),
-            packed: packed.collect::<Result<_, _>>()?,
+            tiled: tiled.into_iter().collect::<Result<_, _>>()?,
         })
     }
 
-    /// What was measured of each packing, and what the simulation expects of it.
+    /// What was measured of each tiling, and what the simulation expects of it.
     fn rows(&self) -> Result<Vec<[String; 9]>, Error> {
         let samples = &self.samples;
         let contention = median(samples, |s| s.beside / s.fixed) - 1.0;
-        let alone = |i: usize| median(samples, |s| s.packed[i].1);
-        let fastest = (0..self.packings.len())
+        let alone = |i: usize| median(samples, |s| s.tiled[i].1);
+        let fastest = (0..TILINGS.len())
             .map(alone)
             .fold(median(samples, |s| s.fixed), f64::min);
-        let row = |(i, packing): (usize, &Packing)| {
-            let seconds = |s: &Sample| s.packed[i].0.render.as_secs_f64();
-            let measured = median(samples, |s| s.packed[i].1 / seconds(s));
-            let traced = &samples[0].packed[i].0;
+        let row = |(i, (name, ..)): (usize, &(&str, Policy, Shape))| {
+            let seconds = |s: &Sample| s.tiled[i].0.render.as_secs_f64();
+            let measured = median(samples, |s| s.tiled[i].1 / seconds(s));
+            let traced = &samples[0].tiled[i].0;
             let expected = self.expected(traced, contention.max(0.0))?;
             let work = &traced.work;
             Ok([
@@ -227,27 +207,21 @@ impl Subject {
                 format!("{expected:.3}"),
                 format!("{:+.1} %", 100.0 * (expected / measured - 1.0)),
                 format!("{:.3}", fastest / median(samples, seconds)),
-                format!(
-                    "{}: {}, {}",
-                    packing.name,
-                    work.packet,
-                    work.schedule.name()
-                ),
+                format!("{}: {}, {}", name, work.packet, work.schedule.name()),
                 format!("{:016x}", traced.picture.hash()),
             ])
         };
-        self.packings.iter().enumerate().map(row).collect()
+        TILINGS.iter().enumerate().map(row).collect()
     }
 
     /// The speed-up that the simulation expects, knowing what each pixel costs.
     fn expected(&self, traced: &Traced, contention: f64) -> Result<f64, Error> {
-        let job = &self.fixed;
-        let engine = engine::build(&self.scene, job.arith, &job.tree, &job.view)?;
+        let engine = engine::build(&self.scene, &SETTINGS)?;
         let map = CostMap::probe(&*engine, NonZeroU32::MIN, &Interrupt::new())?;
         let work = &traced.work;
         let region = engine.built().region();
         let parts = work.packet.cut(&region);
-        let costs: Vec<_> = parts.map(|part| map.cost(&part) + PER_PACKET).collect();
+        let costs: Vec<_> = parts.map(|part| map.cost(&part) + PER_TILE).collect();
         let two = const { NonZeroUsize::new(2).unwrap() };
         let order = dearest_first(&costs);
         let deal = Deal::new(work.schedule, costs.len(), two, order);
@@ -260,8 +234,8 @@ impl Subject {
     }
 }
 
-fn trace(scene: &Scene, job: &RenderJob) -> Result<Traced, Error> {
-    trace::trace(scene, job, &(), &Interrupt::new())
+fn trace(scene: &Scene, work: &WorkOptions) -> Result<Traced, Error> {
+    trace::trace(scene, &SETTINGS, work, false, &(), &Interrupt::new())
 }
 
 /// Does something on a thread of its own, since pinning lasts.
@@ -273,5 +247,16 @@ fn joined<T>(handle: thread::ScopedJoinHandle<'_, T>) -> T {
     match handle.join() {
         Ok(value) => value,
         Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// The median of a value over all samples, of which there is at least one.
+fn median<T>(samples: &[T], value: impl Fn(&T) -> f64) -> f64 {
+    let mut values: Vec<_> = samples.iter().map(value).collect();
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() % 2 {
+        1 => values[middle],
+        _ => (values[middle - 1] + values[middle]) / 2.0,
     }
 }

@@ -17,16 +17,16 @@ pub mod report;
 pub mod setting;
 
 use crate::canvas;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::measure::frames::{self, Named};
-use octray_render::output;
-use octray_render::progress::{Bar, Progress};
 use accuracy::{Accuracy, Judge};
 use cost::{CostKind, Meter};
 use figure::Chart;
-use point::{Panel, Wishes};
 use octray_prepare::RenderSettings;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::progress::{Bar, Progress};
+use point::{Panel, Wishes};
 use setting::Grid;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -164,8 +164,9 @@ impl Judged {
         meter: &Meter<'_>,
         progress: &dyn Progress,
     ) -> Result<Panel, Error> {
-        let fits =
-            |(setting, accuracy): &(RenderSettings, Result<_, _>)| accuracy.is_ok().then_some(*setting);
+        let fits = |(setting, accuracy): &(RenderSettings, Result<_, _>)| {
+            accuracy.is_ok().then_some(*setting)
+        };
         let good: Vec<RenderSettings> = self.outcomes.iter().filter_map(fits).collect();
         let mut costs = meter.costs(kind, &self.scene, &good, progress)?.into_iter();
         let measured = self.outcomes.iter().map(|(setting, accuracy)| {

@@ -25,14 +25,14 @@ pub mod table;
 pub mod workspace;
 
 use crate::canvas;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::output;
-use octray_render::progress::{Bar, Progress};
 use chart::Chart;
 use emulate::Emulator;
 use frames::{Bench, Named};
 use job::MeasureJob;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::progress::{Bar, Progress};
 use report::{Report, With};
 use row::Row;
 use std::path::PathBuf;

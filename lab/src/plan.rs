@@ -20,13 +20,13 @@ mod remedy;
 pub mod report;
 pub mod trial;
 
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::output;
 use accuracy::Scope;
 use choice::{Chooser, choose};
 use job::PlanJob;
 use model::Model;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
 use octray_scenes::model::Scene;
 use report::Report;
 

@@ -11,12 +11,12 @@ mod page;
 mod pictures;
 
 use crate::chart::ChartJob;
+use crate::measure::frames;
+use octray_prepare::Arith;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use crate::measure::frames;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
-use octray_prepare::Arith;
 use octray_stability::method::Method;
 use page::Section;
 use std::num::NonZeroUsize;

@@ -3,18 +3,18 @@
 mod chart;
 
 use crate::canvas;
-use octray_render::cost::{CostMap, dearest_first};
-use octray_render::deal::{Deal, Policy};
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::output;
-use octray_render::packets::Shape;
 use crate::simulate::{Machine, Outcome, simulate_messages};
 use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_core::packet::Region;
 use octray_prepare::RenderSettings;
+use octray_render::cost::{CostMap, dearest_first};
+use octray_render::deal::{Deal, Policy};
 use octray_render::engine;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::packets::Shape;
 use serde::Serialize;
 use std::io;
 use std::num::{NonZeroU32, NonZeroUsize};

@@ -19,13 +19,13 @@ pub mod thesis;
 pub mod traced;
 
 use crate::canvas;
+use chart::Chart;
+use lab::Lab;
+use number::Number;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
-use chart::Chart;
-use lab::Lab;
-use number::Number;
 use shared::{Figure, Outcomes, Simulation};
 use std::path::PathBuf;
 use std::{fs, io};

@@ -21,7 +21,6 @@ mod source;
 
 pub use literal::Literal;
 
-use octray_scenes::model::Scene;
 use crate::format::{Format, InFormat};
 use crate::quantise::{Overflow, Prepared, quantise};
 use crate::settings::{RenderSettings, TreeKind};
@@ -31,6 +30,7 @@ use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
 use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
+use octray_scenes::model::Scene;
 use thiserror::Error;
 
 /// What is baked beside the scene.
@@ -216,7 +216,8 @@ fn room<S: Scalar + Literal>(
             // Shares may come out a little heavier for rounding.
             let mut weight = 1.001;
             let mut bounces = 0;
-            while bounces < options.settings.max_depth && weight * share >= options.settings.cut_off {
+            while bounces < options.settings.max_depth && weight * share >= options.settings.cut_off
+            {
                 weight *= share * 1.001;
                 bounces += 1;
             }

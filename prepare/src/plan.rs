@@ -18,9 +18,9 @@ use crate::bake::BakeOptions;
 use crate::choice::Choice;
 use crate::format::{Arith, Format};
 use crate::settings::{PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
-use octray_scenes::model::Scene;
 use fnv::FnvHasher;
 use octray_core::octree;
+use octray_scenes::model::Scene;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hasher;
@@ -91,11 +91,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`PlanError::Scene`] if it is another scene's plan.
-    pub fn options<'a>(
-        &self,
-        scene: &Scene,
-        name: &'a str,
-    ) -> Result<BakeOptions<'a>, PlanError> {
+    pub fn options<'a>(&self, scene: &Scene, name: &'a str) -> Result<BakeOptions<'a>, PlanError> {
         if self.scene != fingerprint(scene) {
             return Err(PlanError::Scene);
         }
@@ -178,20 +174,17 @@ impl FromStr for Plan {
             let digits = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
             u64::from_str_radix(text, 16).ok().filter(|_| digits)
         })?;
-        let format = lines.take("arith", "an arithmetic", |name| {
-            match Arith::named(name) {
-                Some(Arith::In(format)) => Some(format),
-                _ => None,
-            }
+        let format = lines.take("arith", "an arithmetic", |name| match Arith::named(name) {
+            Some(Arith::In(format)) => Some(format),
+            _ => None,
         })?;
         let size = lines.take("size", pixels, |text| {
             let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
             let (width, height) = text.split_once('x')?;
             Some((side(width)?.into(), side(height)?.into()))
         })?;
-        let pixels_per_ray = lines.take("pixels-per-ray", "1 or 4", |text| {
-            PixelsPerRay::named(text)
-        })?;
+        let pixels_per_ray =
+            lines.take("pixels-per-ray", "1 or 4", |text| PixelsPerRay::named(text))?;
         let max_depth = lines.take("max-depth", "0 to 64", |text| {
             text.parse().ok().filter(|n| *n <= 64)
         })?;

@@ -19,7 +19,6 @@ pub use limits::{Bound, Overflow, bounds, limits};
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::settings::RenderSettings;
-use octray_scenes::model;
 use octray_core::packet::Frame;
 use octray_core::scalar::{Exponent, Quantize, Scalar};
 use octray_core::scene::{Attributes, Light, Scene, Surface};
@@ -27,6 +26,7 @@ use octray_core::shape::{
     Cone, Cuboid, Kind, ObjectRef, Outlines, Patch, Polygon, Shapes, Sphere, Triangle,
 };
 use octray_core::vec3::Vec3;
+use octray_scenes::model;
 
 /// Where a scene lies in the numbers of a format: number = (coordinate − centre) · 2^exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,7 +131,10 @@ pub struct Prepared<S: Quantize> {
 ///
 /// # Errors
 /// If a colour, a coefficient, a refraction index or a transmitted share does not fit the format.
-pub fn quantise<S: Quantize>(scene: &model::Scene, settings: &RenderSettings) -> Result<Prepared<S>, Overflow> {
+pub fn quantise<S: Quantize>(
+    scene: &model::Scene,
+    settings: &RenderSettings,
+) -> Result<Prepared<S>, Overflow> {
     limits::<S>(scene, settings.max_depth)?;
     let rays = settings.rays(scene);
     let extent = Extent::of(scene, &rays);

@@ -228,7 +228,9 @@ impl Choice for FirmwareTree {
             (None, _) => "The compact BVH where it costs less than none",
             (Some(_), true) => "The compact BVH, built by the device in its own memory",
             (Some(TreeKind::None), _) => "None: every ray tries every object",
-            (Some(_), false) => "A BVH of eight boxes per node in 8-bit integers, walked in integers",
+            (Some(_), false) => {
+                "A BVH of eight boxes per node in 8-bit integers, walked in integers"
+            }
         }
     }
 }
@@ -325,7 +327,10 @@ mod tests {
     fn old_names_of_trees_are_understood() {
         for (old, kind) in [("tight", TreeKind::Bvh8), ("packed", TreeKind::CompactBvh8)] {
             assert_eq!(TreeKind::named(old), Some(kind));
-            assert_eq!(serde_json::from_value::<TreeKind>(old.into()).unwrap(), kind);
+            assert_eq!(
+                serde_json::from_value::<TreeKind>(old.into()).unwrap(),
+                kind
+            );
         }
     }
 
@@ -336,7 +341,8 @@ mod tests {
         }
         assert_eq!(FirmwareTree::named("packed"), Some(FirmwareTree::COMPACT));
         assert_eq!(FirmwareTree::named("bvh8"), None);
-        let kind = |objects| FirmwareTree::AUTO.kind_for(objects, Format::F32, Some("thumbv7m-none-eabi"));
+        let kind =
+            |objects| FirmwareTree::AUTO.kind_for(objects, Format::F32, Some("thumbv7m-none-eabi"));
         assert_eq!([kind(2), kind(3)], [TreeKind::None, TreeKind::CompactBvh8]);
     }
 

@@ -93,7 +93,11 @@ mod tests {
             ),
         ] {
             let of = |format| HitTestCost::of(format, target);
-            assert_eq!([of(Format::I18F14), of(Format::I32F32)], [fixed; 2], "{target}");
+            assert_eq!(
+                [of(Format::I18F14), of(Format::I32F32)],
+                [fixed; 2],
+                "{target}"
+            );
             assert_eq!([of(Format::F32), of(Format::Approx2)], [f32; 2], "{target}");
             assert_eq!(of(Format::F64), f64, "{target}");
         }

@@ -1,26 +1,27 @@
 //! Baked scenes: what they are said to need, and the numbers that are written.
 
-use octray_prepare::bake::{BakeError, Baked, FORMATS, Options, Tree, bake};
-use octray_prepare::quantise::View;
+use octray_prepare::RenderSettings;
+use octray_prepare::bake::{BakeError, BakeOptions, Baked, bake};
+use octray_prepare::choice::Choice;
+use octray_prepare::{Arith, Format, TreeKind, TreeSettings};
 
 const HEAD: &str = "v 0 0 9 resolution 8 8 l 5 5 9 1";
 
-fn baked(text: &str, arith: &str, max_depth: u32) -> Result<Baked, BakeError> {
+fn baked(text: &str, arith: Arith, max_depth: u32) -> Result<Baked, BakeError> {
     let scene = octray_scenes::parse(&format!("{HEAD} {text}")).unwrap();
-    let view = View {
-        size: None,
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth,
-    };
-    let options = Options {
+    let options = BakeOptions {
         name: "test",
-        view,
-        cut_off: 1.0 / 512.0,
-        tree: Tree::None,
+        settings: RenderSettings {
+            arith,
+            tree: TreeSettings::of(TreeKind::None),
+            max_depth,
+            ..RenderSettings::DEFAULT
+        },
+        on_device: false,
+        target: None,
         rays: None,
     };
-    bake(&scene, arith, &options)
+    bake(&scene, &options)
 }
 
 fn line(baked: &Baked, start: &str) -> String {
@@ -59,7 +60,7 @@ fn a_scene_needs_what_is_in_it_and_no_more() {
         ),
     ];
     for (surface, object, max_depth, needs, rays) in cases {
-        let baked = baked(&format!("{surface} {object}"), "f32", max_depth).unwrap();
+        let baked = baked(&format!("{surface} {object}"), Arith::F32, max_depth).unwrap();
         let expected = format!("pub const NEEDS: needs::Needs = {needs};");
         assert_eq!(line(&baked, "pub const NEEDS"), expected);
         let expected = format!("pub const RAYS: usize = {rays};");
@@ -71,33 +72,32 @@ fn a_scene_needs_what_is_in_it_and_no_more() {
 fn numbers_are_bit_patterns() {
     let scene = "f 0 0 0 1 1 1 0 0 0 0 0.5 0 s 0 0 -5 1";
     let surface = |arith| line(&baked(scene, arith, 8).unwrap(), "    scene::Surface");
-    assert!(surface("i16f16").contains("diffuse: v(65536, 65536, 65536)"));
-    assert!(surface("i16f16").contains("reflect: n(32768)"));
-    assert!(surface("f32").contains("reflect: n(0x3f000000)"));
+    assert!(surface(Arith::I16F16).contains("diffuse: v(65536, 65536, 65536)"));
+    assert!(surface(Arith::I16F16).contains("reflect: n(32768)"));
+    assert!(surface(Arith::F32).contains("reflect: n(0x3f000000)"));
 }
 
 #[test]
-fn every_format_has_a_name_and_no_other_name_has_a_format() {
+fn every_format_is_baked_as_itself_and_auto_as_the_finest() {
     let scene = "f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1";
-    for name in FORMATS {
-        assert_eq!(baked(scene, name, 8).unwrap().format, name);
+    for format in Format::all() {
+        assert_eq!(baked(scene, format.into(), 8).unwrap().format, format);
     }
-    assert_eq!(baked(scene, "auto", 8).unwrap().format, "i4f28");
-    let unknown = baked(scene, "i1f1", 8);
-    assert_eq!(unknown, Err(BakeError::Unknown("i1f1".into())));
+    let auto = baked(scene, Arith::Auto, 8).unwrap();
+    assert_eq!(auto.format, Format::I4F28);
 }
 
 #[test]
 fn what_a_format_cannot_have_is_told() {
     let glass = "f 0 0 0 1 1 1 0 0 0 0 0 1.5 1.5 s 0 0 -5 1";
-    let why = baked(glass, "i16f16", 8).unwrap_err().to_string();
+    let why = baked(glass, Arith::I16F16, 8).unwrap_err().to_string();
     assert_eq!(
         why,
         "i16f16 takes transmitted shares up to 1, but that of surface 1 is 1.5"
     );
-    assert!(baked(glass, "f32", 8).is_ok());
+    assert!(baked(glass, Arith::F32, 8).is_ok());
     let bright = "f 0 0 0 9e4 1 1 0 0 0 0 0 0 s 0 0 -5 1";
-    let why = baked(bright, "i16f16", 8).unwrap_err().to_string();
+    let why = baked(bright, Arith::I16F16, 8).unwrap_err().to_string();
     let told = "but diffuse and specular light of surface 1 can reach 90000.000000";
     assert!(
         why.starts_with("i16f16 holds numbers below 32767.99"),

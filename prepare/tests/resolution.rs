@@ -1,9 +1,10 @@
 //! What formats are too coarse for, and how that is told.
 
 use octray_core::scalar::{Approx, Fixed, Quantize};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::resolution;
 use octray_scenes::model::Scene;
 use octray_scenes::parse::{parse, read};
-use octray_prepare::quantise::{View, resolution};
 use std::path::Path;
 
 const FIGURES: [&str; 5] = [
@@ -19,11 +20,10 @@ fn told<S: Quantize>(scene: &Scene, size: (u32, u32)) -> Option<String> {
 }
 
 fn told_at_depth<S: Quantize>(scene: &Scene, size: (u32, u32), max_depth: u32) -> Option<String> {
-    let view = View {
+    let view = RenderSettings {
         size: Some(size),
-        pixels_per_ray: 1,
-        samples: 1,
         max_depth,
+        ..RenderSettings::DEFAULT
     };
     resolution::<S>(scene, &view)
         .err()

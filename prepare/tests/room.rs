@@ -3,15 +3,15 @@
 use octray_core::octree::{Accelerator, Options, Packed};
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::Vec3;
-use octray_scenes::generate::{Kind, Spec, generate};
-use octray_prepare::quantise::{Prepared, View, quantise};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::{Prepared, quantise};
 use octray_prepare::tree::{Growth, PackedTree};
+use octray_scenes::generate::{Kind, Spec, generate};
 
-const VIEW: View = View {
+const VIEW: RenderSettings = RenderSettings {
     size: Some((64, 48)),
-    pixels_per_ray: 1,
-    samples: 1,
     max_depth: 4,
+    ..RenderSettings::DEFAULT
 };
 
 fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {

@@ -8,7 +8,8 @@ use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
 use octray_core::octree::Options;
 use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
 use octray_core::trace::{Pending, Tracer, Workspace};
-use octray_prepare::quantise::{View, quantise};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::quantise;
 use octray_prepare::tree::{Growth, TightTree};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -182,11 +183,9 @@ fn value<'a>(told: &'a [(String, String)], name: &str) -> &'a str {
 fn hash_here<S: Quantize>(job: Job) -> String {
     let scene = octray_scenes::read(root().join(job.scene)).unwrap();
     let (width, height) = job.size;
-    let view = View {
+    let view = RenderSettings {
         size: Some(job.size),
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 8,
+        ..RenderSettings::DEFAULT
     };
     reset_saturations();
     let mut prepared = quantise::<S>(&scene, &view).unwrap();

@@ -2,10 +2,10 @@
 //!
 //! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
 
+use octray_prepare::Arith;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::picture::{self, RasDepth, Target};
-use octray_prepare::Arith;
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;
@@ -99,7 +99,7 @@ fn the_benchmark_knows_its_pictures() {
             }
         };
         let mut shot = Shot::new(Arith::F32).size(512, 512);
-        (shot.view.max_depth, shot.view.cut_off) = (4, 0.0);
+        (shot.settings.max_depth, shot.settings.cut_off) = (4, 0.0);
         let hash = format!("{:016x}", shot.take(&scene).picture.hash());
         if hash != expected {
             wrong.push(format!("{name},{hash}"));

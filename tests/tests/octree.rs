@@ -2,7 +2,6 @@
 //! bit, in every arithmetic.
 
 use fastrand::Rng;
-use octray_render::stats::Rays;
 use octray_core::observe::Counters;
 use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
 use octray_core::ray::{Bounds, Ray};
@@ -10,10 +9,13 @@ use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_core::shape::ObjectRef;
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::{Axis, Vec3, vec3};
-use octray_prepare::{self, Arith, TreeKind};
-use octray_scenes::generate::{Kind, Spec};
-use octray_prepare::quantise::{Prepared, Quantised, View, quantise};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::{Prepared, Quantised, quantise};
+use octray_prepare::settings;
 use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::{Arith, TreeKind};
+use octray_render::stats::Rays;
+use octray_scenes::generate::{Kind, Spec};
 use octray_tests::shot::{self, Shot, scene_files};
 use octray_tests::strew;
 use std::collections::BTreeMap;
@@ -52,20 +54,25 @@ fn pictures_are_the_same() {
         for arith in [Arith::F32, Arith::F64, Arith::Auto] {
             let take = |kind, arena, link| {
                 let mut shot = Shot::new(arith).size(64, 48).tree(kind);
-                shot.tree.arena = NonZeroUsize::new(arena);
-                shot.tree.link = link;
+                shot.settings.tree.arena = NonZeroUsize::new(arena);
+                shot.settings.tree.link = link;
                 let traced = shot.take(&scene);
                 (traced.picture.levels().to_vec(), Rays::of(&traced.counters))
             };
-            let (picture, rays) = take(TreeKind::None, 0, options::Link::Shape);
-            for kind in [TreeKind::Bvh8, TreeKind::CompactBvh8, TreeKind::Modified, TreeKind::Plain] {
+            let (picture, rays) = take(TreeKind::None, 0, settings::Link::Shape);
+            for kind in [
+                TreeKind::Bvh8,
+                TreeKind::CompactBvh8,
+                TreeKind::Modified,
+                TreeKind::Plain,
+            ] {
                 for (arena, link) in [
-                    (0, options::Link::Shape),
-                    (0, options::Link::Box),
-                    (1, options::Link::Shape),
-                    (2, options::Link::Shape),
-                    (5, options::Link::Shape),
-                    (20, options::Link::Box),
+                    (0, settings::Link::Shape),
+                    (0, settings::Link::Box),
+                    (1, settings::Link::Shape),
+                    (2, settings::Link::Shape),
+                    (5, settings::Link::Shape),
+                    (20, settings::Link::Box),
                 ] {
                     let (same_picture, same_rays) = take(kind, arena, link);
                     assert!(
@@ -194,11 +201,9 @@ fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
         let text = strew::objects(seed);
         octray_scenes::parse(&text).unwrap_or_else(|e| panic!("{}", e.draw("strewn", &text)))
     };
-    let view = View {
+    let view = RenderSettings {
         size: Some((8, 8)),
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 8,
+        ..RenderSettings::DEFAULT
     };
     quantise::<S>(&scene, &view).expect("the scene fits every format")
 }

@@ -25,7 +25,9 @@ use std::time::Instant;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// What the pixels of a panel can show.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
+)]
 #[strum(serialize_all = "lowercase")]
 pub enum Color {
     /// 5 bits of red, 6 of green, 5 of blue

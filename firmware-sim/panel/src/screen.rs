@@ -1,17 +1,17 @@
 //! The simulated panel: pictures of it, and a live window.
 
-use crate::PanelJob;
 use super::overlay;
+use crate::PanelJob;
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{OriginDimensions, Size};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 use embedded_graphics_simulator::{OutputSettings, OutputSettingsBuilder, SimulatorDisplay};
+use octray_embedded::dither::PanelColor;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::picture::{Picture, Target};
-use octray_embedded::dither::PanelColor;
 use std::fs;
 use std::path::PathBuf;
 

@@ -1,9 +1,9 @@
 //! How fast pictures are traced; the hash of every picture stands beside its time, and is checked.
 //!
-//! `cargo bench -p octray -- [--rounds N] [--print-hashes] [SCENE...]`, where cargo looks for scenes
+//! `cargo bench -p octray-render -- [--rounds N] [--print-hashes] [SCENE...]`, where cargo looks for scenes
 //! from this package's folder: name them from the root.
 //!
-//! Every scene is rendered as by `octray render` with [`OPTIONS`], on one thread and then on two,
+//! Every scene is rendered as by `octray render` with [`OPTIONS`] ([`SETTINGS`]), on one thread and then on two,
 //! once in each round; rounds go through all scenes, so that a machine that slows down for a while
 //! slows all of them. Without scenes, those of figures 19 to 23 and generated ones are taken, and a
 //! second table shows how speed falls as scenes grow. The pictures of these are known: if a hash is
@@ -11,26 +11,35 @@
 
 mod common {
     pub(crate) mod table;
-    pub(crate) mod timing;
 }
 
 use clap::Parser;
 use comfy_table::Table;
 use common::table::table;
-use common::timing;
+use octray_prepare::RenderSettings;
 use octray_render::error::Error;
-use octray::generate::{self, GenerateJob};
 use octray_render::interrupt::Interrupt;
-use octray_render::progress::Progress;
-use octray::render::Traced;
 use octray_render::stats::Rays;
-use octray_scenes::generate::{Kind, Spec};
+use octray_render::trace::{Traced, trace};
+use octray_render::work::WorkOptions;
+use octray_scenes::generate::{Kind, Spec, generate};
+use std::fs::File;
+use std::io::BufWriter;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// How every scene is rendered, beside the number of threads.
 const OPTIONS: &str = "--arith f32 --size 512x512 --max-depth 4 --cut-off 0";
+
+/// The same.
+const SETTINGS: RenderSettings = RenderSettings {
+    size: Some((512, 512)),
+    max_depth: 4,
+    cut_off: 0.0,
+    ..RenderSettings::DEFAULT
+};
 
 /// The scenes that come with the project.
 const FIGURES: [&str; 5] = [
@@ -151,7 +160,7 @@ fn given(path: &Path) -> Subject {
 
 /// The scenes that are rendered if none is given; those that are generated are written to `folder`.
 fn built_in(folder: &Path) -> Result<Vec<Subject>, Error> {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let figure = |name: &str| Subject::new(name.into(), scenes.join(name).with_extension("scene"));
     let mut subjects: Vec<_> = FIGURES.into_iter().map(figure).collect();
     let growing = GROWING
@@ -164,12 +173,11 @@ fn built_in(folder: &Path) -> Result<Vec<Subject>, Error> {
     for spec in growing.chain(others) {
         let name = name(spec);
         let path = folder.join(&name);
-        let job = GenerateJob {
-            spec,
-            seed: SEED,
-            output: Some(path.clone()),
+        let write = |path: &Path| {
+            let mut out = BufWriter::new(File::create(path)?);
+            octray_scenes::write(&generate(spec, SEED), &mut out)
         };
-        generate::run(&job, &Interrupt::new())?;
+        write(&path).map_err(|cause| Error::write(&path, cause))?;
         subjects.push(Subject::new(name, path));
     }
     Ok(subjects)
@@ -191,13 +199,17 @@ impl Subject {
     /// Render once more.
     fn measure(&mut self) -> Result<(), Error> {
         let begin = Instant::now();
-        let scene = octray::check::read(&self.path)?;
+        let scene = octray_scenes::read(&self.path)?;
         let parse = begin.elapsed().as_secs_f64();
-        let trace = |threads: u32| -> Result<Traced, Error> {
-            let job = timing::job(&self.path, &format!("{OPTIONS} --threads {threads}"))?;
-            octray_render::trace::trace(&scene, &job, &Progress::hidden(), &Interrupt::new())
+        let on = |threads: NonZeroUsize| -> Result<Traced, Error> {
+            let work = WorkOptions {
+                threads,
+                ..WorkOptions::default()
+            };
+            trace(&scene, &SETTINGS, &work, false, &(), &Interrupt::new())
         };
-        let (one, two) = (trace(1)?, trace(2)?);
+        let one = on(NonZeroUsize::MIN)?;
+        let two = on(const { NonZeroUsize::new(2).unwrap() })?;
         self.samples.push(Sample {
             parse,
             build: one.build.as_secs_f64(),
@@ -214,7 +226,7 @@ impl Subject {
 
     /// The median over the rounds.
     fn median(&self, value: impl Fn(&Sample) -> f64) -> f64 {
-        timing::median(&self.samples, value)
+        median(&self.samples, value)
     }
 
     /// Seconds of the fastest rendering on one thread.
@@ -308,4 +320,15 @@ fn growth(subjects: &[Subject]) -> Table {
         table.add_row(row);
     }
     table
+}
+
+/// The median of a value over all samples, of which there is at least one.
+fn median<T>(samples: &[T], value: impl Fn(&T) -> f64) -> f64 {
+    let mut values: Vec<_> = samples.iter().map(value).collect();
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() % 2 {
+        1 => values[middle],
+        _ => (values[middle - 1] + values[middle]) / 2.0,
+    }
 }

@@ -67,8 +67,8 @@ impl Request<'_> {
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::CompactBvh8 => {
-                let (tree, summary) = PackedTree::build(&mut prepared.scene, &growth)
-                    .map_err(|_| Error::Objects)?;
+                let (tree, summary) =
+                    PackedTree::build(&mut prepared.scene, &growth).map_err(|_| Error::Objects)?;
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::None => {

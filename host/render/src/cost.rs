@@ -1,12 +1,12 @@
 //! What parts of a picture cost to trace: a weighted sum of counted events, which unlike time is the same
 //! every time.
 
+use crate::engine::Engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use octray_core::observe::{Counters, RayKind};
 use octray_core::packet::Region;
 use octray_core::shape::Kind;
-use crate::engine::Engine;
 use std::num::NonZeroU32;
 use std::ops::Range;
 
@@ -131,7 +131,11 @@ impl CostMap {
         let Region { columns, rows } = &engine.built().active;
         let pixels = columns.len() as f64 * rows.len() as f64;
         let side = (pixels / MOST).sqrt().ceil() as u32;
-        Self::probe(engine, NonZeroU32::new(side).unwrap_or(NonZeroU32::MIN), interrupt)
+        Self::probe(
+            engine,
+            NonZeroU32::new(side).unwrap_or(NonZeroU32::MIN),
+            interrupt,
+        )
     }
 
     /// The numbers of tiles from the most expensive to the cheapest.

@@ -3,13 +3,26 @@
 //! A [`Deal`] says which packet a processor gets next. Threads ask it ([`crate::threads`]), and so does the
 //! simulation ([`crate::simulate`]): both see the same dealing.
 
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// Which processor gets which packet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Hash,
+    Serialize,
+    VariantArray,
+    EnumMessage,
+    EnumString,
+    IntoStaticStr,
+)]
 #[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Policy {
@@ -226,12 +239,12 @@ fn left(hand: u64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use octray_prepare::choice::Choice;
 
     #[test]
     fn a_policy_has_the_same_name_everywhere() {
         for policy in Policy::VARIANTS {
-            let on_command_line = policy.to_possible_value().unwrap();
-            assert_eq!(on_command_line.get_name(), policy.name());
+            assert_eq!(Policy::named(policy.name()), Some(*policy));
             assert_eq!(serde_json::to_value(policy).unwrap(), policy.name());
         }
     }

@@ -1,7 +1,7 @@
 //! Cutting a picture into packets, strips of rows or tiles, and the memory that each is traced into.
 
-use octray_core::packet::Region;
 use crate::packet::{Intensity, Level, Packet};
+use octray_core::packet::Region;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;

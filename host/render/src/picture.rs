@@ -10,9 +10,9 @@ mod ras;
 
 pub use format::{Format, RasDepth, Target, read};
 
+use crate::packet::{Intensity, Level};
 use crate::packets::Part;
 use fnv::FnvHasher;
-use crate::packet::{Intensity, Level};
 use std::hash::Hasher;
 use std::io;
 use std::ops::{Range, RangeFrom};

@@ -1,9 +1,9 @@
 //! A scene in some arithmetic with some tree, and what one thread traces it with.
 
 use crate::apart::Apart;
+use crate::engine::{Built, Engine, FirstHit, Worker};
 use crate::grown::Grown;
 use crate::packet::{Intensity, Level, Packet};
-use crate::engine::{Built, Engine, FirstHit, Worker};
 use octray_core::observe::Counters;
 use octray_core::octree::Accelerator;
 use octray_core::packet::Region;

@@ -112,9 +112,9 @@ pub fn pin(thread: usize) -> Result<(), Error> {
 mod tests {
     use super::*;
     use crate::deal::Policy;
-    use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
     use std::num::NonZeroUsize;
     use std::sync::atomic::{AtomicUsize, Ordering};
+    use strum::VariantArray;
 
     fn deal(policy: Policy, packets: usize, threads: usize) -> Deal {
         Deal::new(policy, packets, NonZeroUsize::new(threads).unwrap(), vec![])

@@ -2,10 +2,10 @@
 
 use super::{files, value};
 use crate::bake::BakeJob;
-use octray_prepare::choice::Choice;
-use octray_render::error::Error;
 use clap::{Args, value_parser};
+use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings, TreeSettings};
+use octray_render::error::Error;
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 

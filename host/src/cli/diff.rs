@@ -2,10 +2,10 @@
 
 use super::{files, value};
 use crate::diff::{Bounds, DiffJob, Share};
-use octray_render::error::Error;
-use octray_render::picture::{RasDepth, Target};
 use clap::Args;
 use octray_prepare::choice::Choice;
+use octray_render::error::Error;
+use octray_render::picture::{RasDepth, Target};
 use std::path::PathBuf;
 
 /// Arguments of `octray diff`.

@@ -1,15 +1,15 @@
 //! Arguments of `octray render`.
 
 use super::{files, value};
+use crate::job::{RenderJob, StatsFormat};
+use clap::{Args, value_parser};
+use octray_prepare::choice::Choice;
+use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::deal::Policy;
 use octray_render::error::Error;
-use crate::job::{RenderJob, StatsFormat};
-use octray_prepare::choice::Choice;
-use octray_render::work::WorkOptions;
 use octray_render::packets::Shape;
 use octray_render::picture::{RasDepth, Target};
-use clap::{Args, value_parser};
-use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+use octray_render::work::WorkOptions;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -166,8 +166,8 @@ impl RenderArgs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octray_render::picture::Format;
     use clap::Parser;
+    use octray_render::picture::Format;
     use std::path::Path;
 
     #[derive(Debug, Parser)]

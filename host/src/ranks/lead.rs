@@ -1,25 +1,25 @@
 //! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
-use octray_render::cost;
-use octray_render::deal::Deal;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::job::RenderJob;
-use octray_render::work::WorkOptions;
-use octray_render::packets::Part;
-use octray_render::picture::Picture;
-use octray_render::progress::Progress;
-use octray_render::trace::Traced;
-use octray_render::stats::{Messages, Work};
-use octray_render::trace;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use octray_core::scalar;
+use octray_render::cost;
+use octray_render::deal::Deal;
 use octray_render::engine;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::packets::Part;
+use octray_render::picture::Picture;
+use octray_render::progress::Progress;
+use octray_render::stats::{Messages, Work};
+use octray_render::trace;
+use octray_render::trace::Traced;
+use octray_render::work::WorkOptions;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;

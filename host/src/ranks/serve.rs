@@ -3,9 +3,6 @@
 use super::{
     IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, buffer, failed, pause,
 };
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::packets::Part;
 use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::Process;
@@ -13,6 +10,9 @@ use mpi::traits::{Communicator, Destination};
 use octray_core::packet::Region;
 use octray_core::scalar;
 use octray_render::engine::{self as engine, Worker};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::packets::Part;
 use std::time::{Duration, Instant};
 
 /// Works for the first rank until there is nothing left.

@@ -1,25 +1,24 @@
 //! The model of `octray plan`: measured and fitted.
 //!
-//! `cargo bench -p octray --bench plan` measures frames of shipped and generated scenes on emulated boards, in
-//! fixed point and in f32, with a tree and without, writes them to `record/plan.csv`, and fits to them the
-//! weights that the model predicts with, `src/plan/weights.csv`. With `--fit` it fits to the record that
-//! is there.
+//! `cargo run --release -p octray-lab --features fit --bin fit-plan` measures frames of shipped and generated scenes on
+//! emulated boards, in fixed point and in f32, with a tree and without, and fits to them the weights that the model
+//! predicts with. With `--fit` it fits to the record that is there, `lab/record/plan.csv`. It writes the record and
+//! `lab/src/plan/weights.csv` only with `--write`.
 
 use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
-use octray_render::interrupt::Interrupt;
 use octray_lab::measure;
 use octray_lab::measure::board::{self, Board};
-use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob, TreeKind};
-use octray_lab::measure::reference::View;
+use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob};
 use octray_lab::measure::report::Report;
 use octray_lab::measure::row::{COLUMNS, Row};
-use octray_render::output;
 use octray_lab::plan::comb::comb;
 use octray_lab::plan::fit;
 use octray_lab::plan::model::Model;
 use octray_lab::plan::record::{self, SEED, Sample};
-use octray_prepare::{Arith, PixelsPerRay};
+use octray_prepare::{Arith, FirmwareTree, RenderSettings};
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
 use octray_scenes::generate::{Kind, Spec, generate};
 use std::error::Error;
 use std::fs::{self, File};
@@ -61,7 +60,7 @@ const TEETH: [u32; 2] = [12, 60];
 
 /// Measure, and fit the model of `octray plan`
 #[derive(Debug, Parser)]
-#[command(name = "plan")]
+#[command(name = "fit-plan")]
 struct Args {
     /// Fit to the record that is there, without measuring
     #[arg(long)]
@@ -69,9 +68,9 @@ struct Args {
     /// Boards that are measured; the record keeps what it has of others
     #[arg(long, value_delimiter = ',', default_values = BOARDS)]
     boards: Vec<String>,
-    /// Given by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    /// Write the record and the weights into the sources
+    #[arg(long)]
+    write: bool,
 }
 
 fn main() -> ExitCode {
@@ -85,29 +84,35 @@ fn main() -> ExitCode {
 }
 
 fn run(args: &Args) -> Result<(), Box<dyn Error>> {
-    let host = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let scenes = host.join("../scenes");
-    let interrupt = Interrupt::on_signal()?;
-    let record = host.join("record/plan.csv");
+    let lab = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scenes = lab.join("../scenes");
+    let interrupt = Interrupt::new();
+    let path = lab.join("record/plan.csv");
+    let mut record = fs::read(&path)?;
     if !args.fit {
         let report = measure(&args.boards, &scenes, &interrupt)?;
         let folder = tempfile::tempdir()?;
         let measured = folder.path().join("plan.csv");
         let job = MeasureJob {
             csv: Some(measured.clone()),
-            ..job(Vec::new(), TreeKind::Packed, &[])
+            ..job(Vec::new(), FirmwareTree::COMPACT, &[])
         };
         report.write(&COLUMNS, &job, &interrupt)?;
         let mut renewed = Vec::new();
-        record::renew(File::open(&record)?, File::open(&measured)?, &mut renewed)?;
-        output::write_file(&record, &interrupt, |out| out.write_all(&renewed))?;
+        record::renew(&*record, File::open(&measured)?, &mut renewed)?;
+        record = renewed;
+        if args.write {
+            output::write_file(&path, &interrupt, |out| out.write_all(&record))?;
+        }
     }
-    let samples: Result<Vec<Sample>, _> = (record::read(File::open(&record)?)?.into_iter())
+    let samples: Result<Vec<Sample>, _> = (record::read(&*record)?.into_iter())
         .map(|line| line.sample(&scenes, &interrupt))
         .collect();
     let samples = samples?;
     let model = fit::model(&samples);
-    model.write(File::create(host.join("src/plan/weights.csv"))?)?;
+    if args.write {
+        model.write(File::create(lab.join("src/plan/weights.csv"))?)?;
+    }
     println!("{}", errors(&samples, &model));
     Ok(())
 }
@@ -151,7 +156,7 @@ fn measure(
         .filter_map(|named| named.first().copied())
         .collect();
     let mut all: Option<Report<Row>> = None;
-    for (scenes, tree) in [(with, TreeKind::Packed), (without, TreeKind::None)] {
+    for (scenes, tree) in [(with, FirmwareTree::COMPACT), (without, FirmwareTree::NONE)] {
         let report = measure::measure(&job(scenes, tree, &boards), interrupt)?;
         match &mut all {
             None => all = Some(report),
@@ -168,17 +173,15 @@ fn measure(
     Ok(report)
 }
 
-fn job(scenes: Vec<PathBuf>, tree: TreeKind, boards: &[&'static Board]) -> MeasureJob {
+fn job(scenes: Vec<PathBuf>, tree: FirmwareTree, boards: &[&'static Board]) -> MeasureJob {
     MeasureJob {
         kernels: false,
         scenes,
         boards: boards.to_vec(),
         ariths: vec![Arith::F32, Arith::Auto],
-        view: View {
-            size: (64, 48),
-            max_depth: 8,
-            pixels_per_ray: PixelsPerRay::One,
-            cut_off: 1.0 / 512.0,
+        settings: RenderSettings {
+            size: Some((64, 48)),
+            ..RenderSettings::DEFAULT
         },
         build: BuildOptions {
             tree,

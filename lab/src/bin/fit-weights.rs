@@ -1,23 +1,18 @@
 //! What each counted event costs: the weights of [`octray_render::cost`], fitted to instructions that Valgrind's
 //! Callgrind counts.
 //!
-//! `cargo bench -p octray --bench weights` runs itself under Callgrind. There it traces strips of rows of the
-//! scenes of figures 19 to 23 and of generated ones, in f32 with the tight tree, and Callgrind dumps the
+//! `cargo run --release -p octray-lab --features fit --bin fit-weights` runs itself under Callgrind. There it traces strips of rows of the
+//! scenes of figures 19 to 23 and of generated ones, in f32 with the default tree, and Callgrind dumps the
 //! instructions of each strip. The weights are those of least squared relative error that are not negative.
 //! Nothing here depends on how fast the machine is or on what else it does.
 
-mod common {
-    pub(crate) mod table;
-}
-
 use clap::Parser;
-use comfy_table::Table;
-use common::table::table;
+use comfy_table::{CellAlignment, Table, presets};
+use octray_prepare::RenderSettings;
 use octray_render::cost::{self, EVENTS, NAMES, WEIGHTS};
-use octray_render::packets::{Part, Shape};
-use octray_prepare::{Arith, PixelsPerRay, TreeKind, TreeSettings, RenderSettings};
-use octray_render::packet::Packet;
 use octray_render::engine::{self as engine, Worker};
+use octray_render::packet::Packet;
+use octray_render::packets::{Part, Shape};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
 use std::error::Error;
@@ -35,14 +30,11 @@ const ROWS: NonZeroU32 = NonZeroU32::new(8).unwrap();
 
 /// Fit the weights of counted events to counted instructions
 #[derive(Debug, Parser)]
-#[command(name = "weights")]
+#[command(name = "fit-weights")]
 struct Args {
     /// Trace only, under Callgrind
     #[arg(long, hide = true)]
     inside: bool,
-    /// Given by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
 }
 
 fn main() -> ExitCode {
@@ -62,16 +54,12 @@ fn main() -> ExitCode {
 
 /// Traces all strips, each in a call of its own, and prints what is counted in them.
 fn trace() -> Result<(), Box<dyn Error>> {
-    let tree = TreeOptions::of(TreeKind::Bvh8);
-    let view = ViewOptions {
+    let settings = RenderSettings {
         size: Some((SIZE, SIZE)),
-        pixels_per_ray: PixelsPerRay::One,
-        samples: 1,
-        max_depth: 8,
-        cut_off: 1.0 / 512.0,
+        ..RenderSettings::DEFAULT
     };
     for (name, scene) in scenes()? {
-        let engine = engine::build(&scene, Arith::F32, &tree, &view)?;
+        let engine = engine::build(&scene, &settings)?;
         let region = engine.built().region();
         for strip in Shape::strip(ROWS).cut(&region) {
             let mut part = Part::black(strip, false);
@@ -97,7 +85,7 @@ fn scenes() -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
     for number in 19..=23 {
         let name = format!("figure-{number}");
         let path = folder.join(&name).with_extension("scene");
-        scenes.push((name, octray::check::read(&path)?));
+        scenes.push((name, octray_scenes::read(&path)?));
     }
     for kind in Kind::ALL {
         let objects = 1000;
@@ -147,8 +135,8 @@ fn measure() -> Result<Vec<Sample>, Box<dyn Error>> {
     let file = folder.path().join("count");
     let output = Command::new("valgrind")
         .arg("--tool=callgrind")
-        .arg("--toggle-collect=weights::trace_a_strip")
-        .arg("--dump-after=weights::trace_a_strip")
+        .arg("--toggle-collect=fit_weights::trace_a_strip")
+        .arg("--dump-after=fit_weights::trace_a_strip")
         .arg(format!("--callgrind-out-file={}", file.display()))
         .arg(std::env::current_exe()?)
         .arg("--inside")
@@ -225,6 +213,18 @@ fn errors(samples: &[Sample], fitted: &[f64; EVENTS]) -> Table {
             format!("{:+.1} %", 100.0 * mean(&WEIGHTS)),
             format!("{:.1} %", 100.0 * deviation(&WEIGHTS)),
         ]);
+    }
+    table
+}
+
+/// A Markdown table, numbers to the right of the first column.
+fn table(heading: &[&str]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::ASCII_MARKDOWN)
+        .set_header(heading);
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
     }
     table
 }

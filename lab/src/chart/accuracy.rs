@@ -2,15 +2,15 @@
 
 use super::ChartJob;
 use super::setting::Setting;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::work::WorkOptions;
-use octray_render::metric::Difference;
-use octray_render::picture::Picture;
-use octray_render::trace;
 use octray_prepare::format::Format;
 use octray_prepare::{Arith, RenderSettings};
 use octray_render::engine::{self as engine, Engine, FirstHit};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::picture::Picture;
+use octray_render::trace;
+use octray_render::work::WorkOptions;
 use octray_scenes::model::Scene;
 
 /// How far off a picture is.
@@ -96,7 +96,10 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     /// [`Error::Interrupted`], or if f64 itself fails.
-    pub fn accuracy(&mut self, setting: &RenderSettings) -> Result<Result<Accuracy, String>, Error> {
+    pub fn accuracy(
+        &mut self,
+        setting: &RenderSettings,
+    ) -> Result<Result<Accuracy, String>, Error> {
         let engine = match build(self.scene, setting) {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,

@@ -1,10 +1,10 @@
 //! Instructions of this machine, counted by Valgrind's Callgrind: exact, and the same every time.
 
 use super::setting::Setting;
+use crate::measure::child::{self, Ended};
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use crate::measure::child::{self, Ended};
 use octray_render::trace::TRACING;
 use std::env;
 use std::fs;

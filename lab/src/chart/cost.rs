@@ -3,19 +3,19 @@
 use super::ChartJob;
 use super::accuracy::build;
 use super::callgrind::Callgrind;
-use octray_render::cost;
-use octray_render::error::Error;
-use octray_render::facts::thousands;
-use octray_render::interrupt::Interrupt;
 use crate::measure;
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::emulate::Emulator;
 use crate::measure::frames::{Bench, Named, SEARCH};
 use crate::measure::job::{BuildOptions, Goal, MeasureJob};
 use crate::measure::workspace::Workspace;
-use octray_render::progress::Progress;
-use octray_render::engine::Engine;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
+use octray_render::cost;
+use octray_render::engine::Engine;
+use octray_render::error::Error;
+use octray_render::facts::thousands;
+use octray_render::interrupt::Interrupt;
+use octray_render::progress::Progress;
 use octray_scenes::model::Scene;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -217,7 +217,10 @@ impl<'a> Meter<'a> {
         plugin: &std::path::Path,
     ) -> Result<Result<f64, String>, Error> {
         let Some(tree) = tree_on_boards(setting.tree.kind) else {
-            return Ok(Err(format!("boards have no {} tree", setting.tree.kind.name())));
+            return Ok(Err(format!(
+                "boards have no {} tree",
+                setting.tree.kind.name()
+            )));
         };
         let bench = Bench {
             workspace,

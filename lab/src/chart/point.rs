@@ -8,12 +8,23 @@ use super::cost::{CostKind, tree_on_boards};
 use super::setting::{self, Setting};
 use octray_prepare::RenderSettings;
 use octray_render::metric::Difference;
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// What accuracy is relative to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    PartialEq,
+    Eq,
+    Serialize,
+    VariantArray,
+    EnumMessage,
+    EnumString,
+    IntoStaticStr,
+)]
 #[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "lowercase")]
 pub enum Against {
@@ -195,7 +206,7 @@ impl Panel {
         let file = self.path.to_string_lossy().into_owned();
         if let CostKind::Board(board) = self.kind {
             words.extend(["measure".into(), file]);
-            words.push(format!("--targets={}", board.name));
+            words.push(format!("--target={}", board.name));
             let tree = tree_on_boards(setting.tree.kind).unwrap_or_default();
             words.extend(setting.measure_arguments(tree));
         } else {
@@ -263,11 +274,14 @@ pub(super) mod tests {
             beyond_1: 0,
             beyond_8: 0,
         };
-        let settings = job.grid.settings();
+        let settings = job.grid.settings(job.size);
         let measured = settings.into_iter().zip(points);
         let measured = measured.map(|(setting, (arith, cost, squares))| {
             let accuracy = Accuracy {
-                format: arith.name().into(),
+                format: match arith {
+                    Arith::In(format) => *format,
+                    Arith::Auto => octray_prepare::Format::I4F28,
+                },
                 same: of(*squares),
                 converged: of(squares + 100),
                 sight: Sight {
@@ -295,8 +309,8 @@ pub(super) mod tests {
     /// From cheap and wrong to dear and exact, and one that is beaten.
     pub(crate) fn made_up() -> Panel {
         panel(&[
-            (Arith::Approx0, 1e6, 900_000),
-            (Arith::Approx1, 2e6, 3_000),
+            (Arith::APPROX0, 1e6, 900_000),
+            (Arith::APPROX1, 2e6, 3_000),
             (Arith::F32, 4e6, 500),
             (Arith::I16F16, 8e6, 900),
             (Arith::F64, 9e6, 0),
@@ -331,7 +345,7 @@ pub(super) mod tests {
         let panel = made_up();
         assert_eq!(
             panel.command(&panel.points[3].setting),
-            "octray render 'a b.scene' --arith=i16f16 --size=16x16 --tree=tight --max-depth=8 \
+            "octray render 'a b.scene' --arith=i16f16 --size=16x16 --tree=bvh8 --max-depth=8 \
              --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1"
         );
         let board = Panel {
@@ -339,12 +353,12 @@ pub(super) mod tests {
             ..panel
         };
         let setting = RenderSettings {
-            tree: octray_prepare::TreeKind::Packed,
+            tree: octray_prepare::TreeSettings::of(octray_prepare::TreeKind::CompactBvh8),
             ..board.points[0].setting
         };
         assert_eq!(
             board.command(&setting),
-            "octray measure 'a b.scene' --targets=m3 --arith=approx0 --size=16x16 --tree=packed \
+            "octray measure 'a b.scene' --target=m3 --arith=approx0 --size=16x16 --tree=compact-bvh8 \
              --max-depth=8 --cut-off=1/512 --pixels-per-ray=1"
         );
     }

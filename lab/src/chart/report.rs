@@ -2,10 +2,10 @@
 
 use super::accuracy::Accuracy;
 use super::point::{Against, Panel, Point};
-use octray_prepare::{Arith, RenderSettings};
 use crate::measure::table;
-use octray_render::metric::Difference;
 use comfy_table::Table;
+use octray_prepare::{Arith, RenderSettings};
+use octray_render::metric::Difference;
 use serde::Serialize;
 use std::fmt::Write;
 use std::io;

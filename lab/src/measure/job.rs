@@ -1,11 +1,11 @@
 //! What to measure: a command line that has been checked.
 
 use super::board::Board;
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 use octray_prepare::{Arith, FirmwareTree, RenderSettings};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// Everything `octray measure` was asked for.
 #[derive(Clone, Debug)]
@@ -44,7 +44,19 @@ pub struct BuildOptions {
 }
 
 /// What the compiler makes small.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    VariantArray,
+    EnumMessage,
+    EnumString,
+    IntoStaticStr,
+)]
 #[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "lowercase")]
 pub enum Goal {

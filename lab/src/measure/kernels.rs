@@ -11,12 +11,12 @@ use super::emulate::{Emulator, Run};
 use super::job::MeasureJob;
 use super::report::{Report, With};
 use super::workspace::Workspace;
+use octray_prepare::choice::Choice;
+use octray_prepare::{Arith, Format};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
-use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, Format};
 use serde::Serialize;
 use table::{failures, text};
 

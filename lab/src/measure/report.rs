@@ -98,10 +98,10 @@ impl<Row: Serialize> Report<Row> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::super::board::BOARDS;
-    use super::super::job::{Goal, TreeKind};
+    use super::super::job::Goal;
     use super::super::row::{COLUMNS, Cost, Row};
     use super::*;
-    use octray_prepare::Arith;
+    use octray_prepare::{Arith, FirmwareTree, Format};
 
     /// A row in which every number is another.
     pub(in super::super) fn example() -> Row {
@@ -115,13 +115,13 @@ pub(super) mod tests {
             cut_off: 0.01,
             board: &BOARDS[1],
             arith: Arith::Auto,
-            tree: TreeKind::Packed,
+            tree: FirmwareTree::COMPACT,
             optimize: Goal::Speed,
             outcome: "ok".into(),
             cost: Some(Cost {
                 target: BOARDS[1].target,
                 core: BOARDS[1].core,
-                format: "i4f28".into(),
+                format: Format::I4F28,
                 instructions: 55_674_955,
                 per_pixel: 18_123.4,
                 rays: 39_804,

@@ -6,8 +6,8 @@ use super::cycles::Estimate;
 use super::job::Goal;
 use super::memory::Memory;
 use super::reference::Reference;
-use octray_render::stats::Rays;
 use octray_prepare::{Arith, FirmwareTree, Format};
+use octray_render::stats::Rays;
 use serde::Serialize;
 
 /// A scene on a board in an arithmetic.

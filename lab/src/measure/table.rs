@@ -2,8 +2,8 @@
 
 use super::ratio;
 use super::row::{Cost, Row};
-use octray_render::facts::thousands;
 use comfy_table::{CellAlignment, Table, presets};
+use octray_render::facts::thousands;
 
 /// The table, and the costliest functions of each row.
 pub fn text(rows: &[Row], functions: usize) -> String {

@@ -3,16 +3,16 @@
 
 use super::events::{Events, Probe};
 use super::job::Numbers;
+use octray_core::octree::{self, PACKED_DEPTH};
+use octray_prepare::format::{Family, Format};
+use octray_prepare::plan::{Plan, fingerprint};
+use octray_prepare::quantise::{Bound, bounds};
+use octray_prepare::{PixelsPerRay, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::picture::Picture;
-use octray_core::octree::{self, PACKED_DEPTH};
-use octray_prepare::format::{Family, Format};
-use octray_prepare::{PixelsPerRay, RenderSettings};
 use octray_scenes::model::Scene;
-use octray_prepare::plan::{Plan, fingerprint};
-use octray_prepare::quantise::{Bound, bounds};
 use serde::Serialize;
 use strum::VariantArray;
 
@@ -23,7 +23,7 @@ const TREE: octree::Options = octree::Options {
 };
 
 /// The 32-bit fixed-point formats, the narrowest fraction first.
-fn fixed_point() -> impl DoubleEndedIterator<Item = Format> {
+pub fn fixed_point() -> impl DoubleEndedIterator<Item = Format> {
     let all = Format::VARIANTS.iter().copied();
     all.filter(|format| format.family() == Family::Fixed)
 }
@@ -89,9 +89,13 @@ impl Scope<'_> {
     /// # Errors
     /// [`Error::Failed`] if the scene is too large for a packed tree; [`Error::Interrupted`].
     pub fn accuracy(&self, numbers: Numbers) -> Result<Accuracy, Error> {
-        let exact = self.render(&self.plan(Format::F64, PixelsPerRay::One, RenderSettings::DEEPEST))?.picture;
+        let exact = self
+            .render(&self.plan(Format::F64, PixelsPerRay::One, RenderSettings::DEEPEST))?
+            .picture;
         let depth = self.depth(&exact)?;
-        let full = self.render(&self.plan(Format::F64, PixelsPerRay::One, depth))?.events;
+        let full = self
+            .render(&self.plan(Format::F64, PixelsPerRay::One, depth))?
+            .events;
         let shallower = match depth.checked_sub(1) {
             None => None,
             Some(less) => {
@@ -210,11 +214,7 @@ impl Scope<'_> {
         Ok(())
     }
 
-    fn attempt(
-        &self,
-        accuracy: &Accuracy,
-        format: Format,
-    ) -> Result<Tried, Error> {
+    fn attempt(&self, accuracy: &Accuracy, format: Format) -> Result<Tried, Error> {
         let probe = self.render(&self.plan(format, accuracy.pixels_per_ray, accuracy.depth))?;
         let psnr = psnr(&accuracy.exact, &probe.picture)?;
         Ok(Tried {
@@ -299,7 +299,12 @@ mod tests {
             min_psnr: 40.0,
             interrupt: &Interrupt::default(),
         };
-        let picture = |depth| scope.render(&scope.plan(Format::F64, PixelsPerRay::One, depth)).unwrap().picture;
+        let picture = |depth| {
+            scope
+                .render(&scope.plan(Format::F64, PixelsPerRay::One, depth))
+                .unwrap()
+                .picture
+        };
         let exact = picture(RenderSettings::DEEPEST);
         assert_eq!(
             [0, 1, 2].map(|depth| picture(depth) == exact),

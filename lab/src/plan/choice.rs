@@ -4,12 +4,12 @@ use super::accuracy::{Accuracy, Scope};
 use super::events::{Events, Probe};
 use super::job::Bounds;
 use super::model::{Family, Model, Parts, Prediction, Weights};
-use octray_render::error::Error;
 use crate::measure::board::Board;
 use octray_core::octree::{Options, PACKED_DEPTH};
 use octray_prepare::Format;
 use octray_prepare::bake::{Baked, bake};
 use octray_prepare::plan::Plan;
+use octray_render::error::Error;
 
 /// Objects up to which it is tried to do without a tree.
 const FEW: usize = 64;

@@ -1,17 +1,17 @@
 //! What happens while a frame is traced, counted on the host: what instructions are predicted from.
 
 use super::model::ROWS;
+use octray_core::observe::{Counters, RayKind, Searches};
+use octray_prepare::plan::Plan;
 use octray_render::deal::Policy;
+use octray_render::engine::{self as engine, Engine};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::work::WorkOptions;
 use octray_render::packets::Shape;
 use octray_render::picture::Picture;
 use octray_render::trace;
-use octray_core::observe::{Counters, RayKind, Searches};
-use octray_render::engine::{self as engine, Engine};
+use octray_render::work::WorkOptions;
 use octray_scenes::model::Scene;
-use octray_prepare::plan::Plan;
 use std::num::NonZeroU32;
 
 /// How many events of a search there are.

@@ -1,9 +1,9 @@
 //! What to plan: a command line that has been checked.
 
 use crate::measure::board::Board;
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 use serde::Serialize;
 use std::path::PathBuf;
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// Everything `octray plan` was asked for.
 #[derive(Clone, Debug)]
@@ -38,7 +38,9 @@ pub struct Bounds {
 }
 
 /// The arithmetics that come into question.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
+)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Numbers {
     /// Whichever takes fewer instructions.

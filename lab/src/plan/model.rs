@@ -4,13 +4,13 @@
 //! `cargo bench -p octray --bench plan` measures frames on emulated boards and fits the weights.
 
 use super::events::{Events, NAMES, OF_REST, OF_SEARCH};
-use octray_render::error::Error;
 use octray_core::needs::{self, Needs};
-use octray_core::trace::Pending;
 use octray_core::octree::Options;
+use octray_core::trace::Pending;
 use octray_prepare::bake::Baked;
 use octray_prepare::format::{self, Format};
 use octray_prepare::plan::Plan;
+use octray_render::error::Error;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
 
@@ -160,7 +160,13 @@ impl Weights {
     }
 
     /// What a frame costs.
-    pub fn predict(&self, events: &Events, baked: &Baked, tree: Option<Options>, lent: Parts) -> Prediction {
+    pub fn predict(
+        &self,
+        events: &Events,
+        baked: &Baked,
+        tree: Option<Options>,
+        lent: Parts,
+    ) -> Prediction {
         Prediction {
             instructions: self.instructions(events).iter().sum(),
             code: sum(&code(baked.needs, tree), &self.code),

@@ -3,16 +3,16 @@
 use super::comb::comb;
 use super::events::{Events, Probe};
 use super::model::{Family, Parts, Weights};
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::measure::board::{BOARDS, Board};
 use octray_core::octree::Options;
-use octray_prepare::bake::{Baked, BakeOptions, bake};
+use octray_prepare::bake::{BakeOptions, Baked, bake};
 use octray_prepare::choice::Choice;
+use octray_prepare::plan::{Plan, fingerprint};
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
-use octray_prepare::plan::{Plan, fingerprint};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::io::{Read, Write};
@@ -158,7 +158,9 @@ pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
     });
     match generated {
         Some(scene) => Ok(scene),
-        None => Ok(octray_scenes::read(&folder.join(name).with_extension("scene"))?),
+        None => Ok(octray_scenes::read(
+            &folder.join(name).with_extension("scene"),
+        )?),
     }
 }
 

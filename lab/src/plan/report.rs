@@ -7,9 +7,9 @@ use super::job::{Bounds, PlanJob};
 use super::model::Prediction;
 use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
 use super::trial::Trial;
+use octray_prepare::plan::Plan;
 use octray_render::error::Error;
 use octray_render::facts::thousands;
-use octray_prepare::plan::Plan;
 use serde::Serialize;
 
 /// What there is to tell.

@@ -2,16 +2,16 @@
 
 use super::events::Probe;
 use super::report::Cost;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
 use crate::measure::job::Goal;
 use crate::measure::memory::Memory;
 use crate::measure::workspace::Workspace;
 use crate::measure::{self, frames};
-use octray_scenes::model::Scene;
 use octray_prepare::plan::Plan;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_scenes::model::Scene;
 use serde::Serialize;
 use std::fs;
 use std::path::Path;

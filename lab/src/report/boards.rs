@@ -1,13 +1,13 @@
 //! Small targets, from the newest record of `octray measure` that comes with octray: table III, and sizes.
 
 use super::page::{self, Section, table};
-use octray_render::error::Error;
-use octray_render::facts::thousands;
 use crate::tables::emulated;
 use crate::tables::record::{self, Row};
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
+use octray_render::error::Error;
+use octray_render::facts::thousands;
 
 /// Table III today, and what programs need.
 ///

@@ -6,10 +6,10 @@ use crate::chart::cost::Meter;
 use crate::chart::figure::Chart;
 use crate::chart::point::Panel;
 use crate::chart::{self, ChartJob};
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
 use crate::measure::frames::Named;
 use maud::{Markup, html};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 use std::path::{Path, PathBuf};
 
 /// The section. Where costs cannot be counted it says why.

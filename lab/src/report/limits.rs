@@ -3,13 +3,13 @@
 use super::ReportJob;
 use super::page::{self, Section};
 use crate::canvas;
-use octray_render::error::Error;
-use octray_render::interrupt::Interrupt;
-use octray_render::progress::{Bar, Progress};
 use crate::stability::map::Map;
 use crate::stability::queries::Queries;
 use crate::stability::{overview, table};
 use maud::{Markup, html};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::progress::{Bar, Progress};
 use octray_stability::method::Sweep;
 use octray_stability::number::ARITHMETICS;
 use octray_stability::survey::{self, Outcome, survey};

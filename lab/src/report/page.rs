@@ -1,10 +1,10 @@
 //! The page: HTML that needs neither network nor script, in the reader's own light or dark.
 
-use octray_render::error::Error;
-use octray_render::picture::Picture;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use octray_render::error::Error;
+use octray_render::picture::Picture;
 
 /// How it looks.
 const STYLE: &str = include_str!("style.css");

@@ -2,17 +2,17 @@
 
 use super::ReportJob;
 use super::page::{self, Section, quoted};
+use crate::measure::frames::Named;
+use crate::measure::reference;
+use maud::{Markup, html};
+use octray_prepare::{Arith, RenderSettings};
 use octray_render::error::Error;
 use octray_render::facts::thousands;
 use octray_render::heat;
 use octray_render::interrupt::Interrupt;
-use crate::measure::frames::Named;
-use crate::measure::reference;
 use octray_render::metric::Difference;
 use octray_render::progress::Progress;
 use octray_render::trace::Traced;
-use maud::{Markup, html};
-use octray_prepare::{Arith, RenderSettings};
 use std::path::Path;
 
 /// The section of a scene, the `index`th.

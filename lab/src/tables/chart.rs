@@ -3,8 +3,8 @@
 
 use super::shared::{Outcomes, POLICIES, Simulation};
 use crate::canvas::{Area, Drawn, Figure, write};
-use octray_render::facts::thousands;
 use crate::simulate::Outcome;
+use octray_render::facts::thousands;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;

@@ -3,9 +3,9 @@
 use super::number::Number;
 use super::record::{self, Row};
 use super::table::{Base, Draft, Quantity};
-use octray_render::error::Error;
 use crate::measure::ratio::{CORES, geometric_mean};
 use octray_prepare::Arith;
+use octray_render::error::Error;
 use std::fs;
 use std::path::Path;
 

@@ -1,18 +1,18 @@
 //! Where scenes are traced for the tables, each variant once.
 
 use super::subject::{Subject, Trial};
+use octray_core::packet::Region;
+use octray_prepare::{RenderSettings, TreeSettings};
 use octray_render::cost::{self, CostMap};
 use octray_render::deal::Policy;
+use octray_render::engine;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::work::WorkOptions;
 use octray_render::packets::Shape;
-use octray_render::trace::Traced;
 use octray_render::stats::Rays;
+use octray_render::trace::Traced;
 use octray_render::trace::trace;
-use octray_core::packet::Region;
-use octray_render::engine;
-use octray_prepare::{RenderSettings, TreeSettings};
+use octray_render::work::WorkOptions;
 use std::cell::RefCell;
 use std::num::{NonZeroU32, NonZeroUsize};
 

@@ -4,12 +4,12 @@ use super::lab::Lab;
 use super::number::Number;
 use super::subject::FIGURES;
 use super::table::{Base, Draft, DraftLine, Quantity};
+use crate::simulate::{Machine, Outcome, simulate};
+use octray_core::packet::Region;
 use octray_render::cost::CostMap;
 use octray_render::deal::{Deal, Policy};
 use octray_render::error::Error;
 use octray_render::packets::Shape;
-use crate::simulate::{Machine, Outcome, simulate};
-use octray_core::packet::Region;
 use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Rows of a packet in table VIII, H in the thesis.

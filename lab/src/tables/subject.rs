@@ -1,7 +1,7 @@
 //! The scenes of the tables, and their variants.
 
-use octray_render::error::Error;
 use octray_prepare::{PixelsPerRay, TreeKind};
+use octray_render::error::Error;
 use octray_scenes::model::Scene;
 
 /// A scene that comes with octray.

@@ -1,8 +1,8 @@
 //! A table, to read.
 
 use super::table::{Line, Quantity, Table, Value};
-use octray_render::facts::thousands;
 use comfy_table::{CellAlignment, presets};
+use octray_render::facts::thousands;
 use std::fmt::Write;
 
 /// What is told of what is not known.

@@ -6,8 +6,8 @@ use super::number::Number;
 use super::subject::{FIGURES, FLAT, Subject, Trial};
 use super::table::{Base, Draft, Quantity};
 use super::thesis::Thesis;
-use octray_render::error::Error;
 use octray_prepare::{PixelsPerRay, TreeKind};
+use octray_render::error::Error;
 
 /// What a column holds, and how it is got.
 type Column = (Quantity, fn(&Tally) -> f64);

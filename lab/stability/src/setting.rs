@@ -2,9 +2,9 @@
 //! them, and where it puts them.
 
 use octray_core::scalar::Quantize;
-use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, limits, quantise, resolution};
+use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
 
 /// A scene and the view of it.
 #[derive(Clone, Debug)]

@@ -2,10 +2,10 @@
 //! format's directions tell apart: then methods break (`octray stability` shows where).
 
 use super::camera::{add, length, times};
-use crate::settings::RenderSettings;
 use super::extent::{Extent, shape_box};
-use octray_scenes::model::{Point, Scene, Shape};
+use crate::settings::RenderSettings;
 use octray_core::scalar::Quantize;
+use octray_scenes::model::{Point, Scene, Shape};
 use std::fmt;
 
 /// Something that a format is too coarse for.

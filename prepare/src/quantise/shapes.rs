@@ -3,12 +3,12 @@
 use super::camera::{add, cross, dot, length, times, unit};
 use super::extent::shape_box;
 use super::{Placement, Quantised, down, up, vector};
-use octray_scenes::model::{Object, Point, Scene, Shape};
 use octray_core::ray::Bounds;
 use octray_core::scalar::Quantize;
 use octray_core::scene::Attributes;
 use octray_core::shape::{Bands, Cone, Cuboid, Flat, Kind, Patch, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
+use octray_scenes::model::{Object, Point, Scene, Shape};
 
 impl<S: Quantize> Quantised<S> {
     /// Adds an object with its identity.

@@ -4,11 +4,11 @@ use super::{Picture, pfm, png, ppm, ras};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// A picture format, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,9 @@ pub enum Format {
 }
 
 /// Bits per pixel of a Sun rasterfile.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
+)]
 #[strum(serialize_all = "kebab-case")]
 pub enum RasDepth {
     /// 256 colours in a map; exact when the picture has no more.

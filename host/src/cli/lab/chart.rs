@@ -2,15 +2,15 @@
 
 use super::lists;
 use crate::cli::{files, value};
+use clap::{Args, value_parser};
 use octray_lab::canvas;
 use octray_lab::chart::ChartJob;
 use octray_lab::chart::cost::{CostKind, tree_on_boards};
 use octray_lab::chart::point::{Against, Wishes};
 use octray_lab::chart::setting::Grid;
+use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind};
 use octray_render::error::Error;
 use octray_render::picture::Target;
-use clap::{Args, value_parser};
-use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -228,7 +228,10 @@ mod tests {
 
     #[test]
     fn with_a_board_the_tree_is_one_that_boards_have() {
-        assert_eq!(job("a --cost m3,host-time").grid.trees, [TreeKind::CompactBvh8]);
+        assert_eq!(
+            job("a --cost m3,host-time").grid.trees,
+            [TreeKind::CompactBvh8]
+        );
         assert_eq!(job("a --cost m3 --tree none").grid.trees, [TreeKind::None]);
         let all = job("a --cost m3 --pixels-per-ray 1,4 --cut-off 0,0.1").grid;
         assert_eq!(all.settings((8, 8)).len(), 48);

@@ -2,15 +2,15 @@
 
 use super::lists;
 use crate::cli::{files, value};
+use clap::{Args, value_parser};
 use octray_lab::canvas;
-use octray_render::error::Error;
 use octray_lab::measure::board::{self, BOARDS, Board};
 use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob};
 use octray_lab::measure::ratio::CORES;
-use octray_render::picture::Target;
-use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings};
+use octray_render::error::Error;
+use octray_render::picture::Target;
 use std::path::PathBuf;
 use std::time::Duration;
 

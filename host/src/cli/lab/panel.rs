@@ -2,11 +2,11 @@
 
 use crate::cli::{files, value};
 use clap::{Args, value_parser};
-use octray_render::error::Error;
-use octray_render::picture::Target;
 use octray_panel::{Color, PanelJob};
 use octray_prepare::Arith;
 use octray_prepare::choice::Choice;
+use octray_render::error::Error;
+use octray_render::picture::Target;
 use std::path::PathBuf;
 
 /// Arguments of `octray panel`.

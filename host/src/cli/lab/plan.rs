@@ -1,11 +1,11 @@
 //! Arguments of `octray plan`.
 
 use crate::cli::{files, value};
-use octray_render::error::Error;
+use clap::Args;
 use octray_lab::measure::board::{self, Board};
 use octray_lab::plan::job::{Bounds, Numbers, PlanJob, memory};
-use clap::Args;
 use octray_prepare::choice::Choice;
+use octray_render::error::Error;
 use std::path::PathBuf;
 
 /// Arguments of `octray plan`.

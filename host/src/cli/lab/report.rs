@@ -2,14 +2,14 @@
 
 use super::lists;
 use crate::cli::{files, value};
+use clap::Args;
 use octray_lab::chart::ChartJob;
 use octray_lab::chart::cost::CostKind;
 use octray_lab::chart::point::{Against, Wishes};
 use octray_lab::chart::setting::Grid;
-use octray_render::error::Error;
 use octray_lab::report::ReportJob;
-use clap::Args;
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind};
+use octray_render::error::Error;
 use octray_stability::sweep;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

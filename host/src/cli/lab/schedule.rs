@@ -2,16 +2,16 @@
 
 use super::lists;
 use crate::cli::{files, value};
+use clap::{Args, value_parser};
 use octray_lab::canvas;
+use octray_lab::simulate::Machine;
+use octray_lab::sweep::SweepJob;
+use octray_prepare::choice::Choice;
+use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::deal::Policy;
 use octray_render::error::Error;
 use octray_render::packets::Shape;
 use octray_render::picture::Target;
-use octray_lab::simulate::Machine;
-use octray_lab::sweep::SweepJob;
-use clap::{Args, value_parser};
-use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 

@@ -2,10 +2,10 @@
 
 use super::lists;
 use crate::cli::{files, value};
-use octray_render::error::Error;
-use octray_lab::stability::StabilityJob;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use octray_lab::stability::StabilityJob;
+use octray_render::error::Error;
 use octray_stability::method::Method;
 use octray_stability::number::ARITHMETICS;
 use octray_stability::sweep;

@@ -1,13 +1,13 @@
 //! Arguments of `octray tables`.
 
 use crate::cli::{files, value};
-use octray_render::error::Error;
+use clap::Args;
 use octray_lab::simulate::Machine;
 use octray_lab::tables::TablesJob;
 use octray_lab::tables::number::Number;
 use octray_lab::tables::shared::Simulation;
-use clap::Args;
 use octray_prepare::choice::Choice;
+use octray_render::error::Error;
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 

@@ -8,8 +8,8 @@ use crate::tally::{Bounds, Tally, bound};
 use octray_core::octree::{Accelerator, List};
 use octray_core::ray::Ray;
 use octray_core::shape::ObjectRef;
-use octray_scenes::model::Shape;
 use octray_prepare::quantise::Prepared;
+use octray_scenes::model::Shape;
 
 /// Two spheres or two squares, the one 10⁻¹ to 10⁻⁷ of their size above the other; and in the same
 /// place, where the first in the file counts. A hit is the right one.

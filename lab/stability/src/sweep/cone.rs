@@ -10,8 +10,8 @@ use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
-use octray_scenes::model::Shape;
 use octray_prepare::quantise::Prepared;
+use octray_scenes::model::Shape;
 
 const FORMS: &[Form] = &[
     Form {

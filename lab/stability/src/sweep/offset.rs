@@ -11,8 +11,8 @@ use octray_core::octree::Hit;
 use octray_core::ray::Ray;
 use octray_core::shape::{Kind, ObjectRef};
 use octray_core::vec3::Vec3;
-use octray_scenes::model::Shape;
 use octray_prepare::quantise::Prepared;
+use octray_scenes::model::Shape;
 
 /// Scenes of 10⁻⁴ to 10⁵ units. Rays leave a sphere, or a square, and should meet another that is
 /// a hundredth of its size away; a hit on what they leave is a false hit.

@@ -12,9 +12,9 @@ use octray_core::ray::Ray;
 use octray_core::scene::Scene;
 use octray_core::shape::{self, Kind, ObjectRef, Shapes};
 use octray_core::vec3::{Axis, Vec3};
-use octray_scenes::model::Shape;
 use octray_prepare::quantise::Prepared;
 use octray_prepare::tree::{Growth, OctantTree, TightTree};
+use octray_scenes::model::Shape;
 
 /// Rays along axes and diagonals, or at a slope of 1 to 10⁻⁷ against them, through corners of cells
 /// or as far beside them; at every other corner there is a sphere. A hit is the right sphere.
