@@ -1,9 +1,9 @@
-//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals packets, traces some
+//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals tiles, traces some
 //! itself and writes the picture; the others need no files.
 //!
-//! The scene is broadcast once, parsed. A rank has two packets in hand, so it need not wait for the next one while
+//! The scene is broadcast once, parsed. A rank has two tiles in hand, so it need not wait for the next one while
 //! its answer is on the way, and puts its results into a buffer, so it need not wait until they are taken. Every rank
-//! traces on one thread, and the first answers the others between its own packets. If a rank dies, `mpirun` says so
+//! traces on one thread, and the first answers the others between its own tiles. If a rank dies, `mpirun` says so
 //! and ends the others; the picture is written only when all of it is there.
 
 mod lead;
@@ -20,27 +20,27 @@ use octray_core::packet::Region;
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packet::{Intensity, Level};
-use octray_render::packets::Shape;
+use octray_render::tile::TileSize;
+use octray_render::tile::{Intensity, Level};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::thread;
 use std::time::Duration;
 
-/// What a rank asks for at first: a packet.
+/// What a rank asks for at first: a tile.
 const REQUEST: i32 = 1;
-/// A packet that was traced: its number and its pixels. It asks for another one.
+/// A tile that was traced: its number and its pixels. It asks for another one.
 const RESULT: i32 = 2;
-/// What a rank counted, when it has no more packets.
+/// What a rank counted, when it has no more tiles.
 const TALLY: i32 = 3;
-/// The number of a packet to be traced, or [`NONE`].
+/// The number of a tile to be traced, or [`NONE`].
 const PACKET: i32 = 4;
 
-/// No packet is left.
+/// No tile is left.
 const NONE: u32 = u32::MAX;
 
-/// Packets that a rank has in hand.
+/// Tiles that a rank has in hand.
 const IN_HAND: usize = 2;
 
 /// Bytes that a message in a buffer takes beside its own: at least MPI_BSEND_OVERHEAD of the MPI libraries there are,
@@ -55,7 +55,7 @@ const PAUSE: Duration = Duration::from_micros(20);
 struct Plan<'a> {
     scene: Cow<'a, Scene>,
     settings: RenderSettings,
-    shape: Shape,
+    shape: TileSize,
     /// Whether intensities are wanted beside levels.
     intensities: bool,
 }

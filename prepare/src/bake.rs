@@ -24,7 +24,7 @@ pub use literal::Literal;
 use crate::format::{Format, InFormat};
 use crate::quantise::{Overflow, Prepared, quantise};
 use crate::settings::{RenderSettings, TreeKind};
-use crate::tree::{Growth, PackedTree, every_object};
+use crate::tree::{Growth, OwnedCompactBvh8, every_object};
 use octray_core::needs::{self, Needs};
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
@@ -114,7 +114,7 @@ fn bake_as<S: Literal>(
             options: growth,
             arena: None,
         };
-        PackedTree::build(scene, &growth)
+        OwnedCompactBvh8::build(scene, &growth)
             .map_err(|_| BakeError::TooMany)
             .map(|(tree, _)| tree)
     };

@@ -19,12 +19,12 @@ pub struct Growth {
 
 /// A tight tree.
 #[derive(Clone, Debug)]
-pub struct TightTree<P> {
+pub struct OwnedBvh8<P> {
     nodes: Vec<Node<P>>,
     links: Vec<ObjectRef>,
 }
 
-impl<P: octray_core::octree::Plane> TightTree<P> {
+impl<P: octray_core::octree::Plane> OwnedBvh8<P> {
     /// Builds the tree, and puts the scene's objects into the order of its leaves.
     pub fn build<S: Quantize<Plane = P>>(
         scene: &mut Quantised<S>,
@@ -67,7 +67,7 @@ impl<P: octray_core::octree::Plane> TightTree<P> {
 
 /// A packed tree.
 #[derive(Clone, Debug)]
-pub struct PackedTree {
+pub struct OwnedCompactBvh8 {
     /// The nodes.
     pub words: Vec<u32>,
     /// The objects, leaf by leaf.
@@ -76,7 +76,7 @@ pub struct PackedTree {
     pub tick: u32,
 }
 
-impl PackedTree {
+impl OwnedCompactBvh8 {
     /// Builds the tree, and puts the scene's objects into the order of its leaves. The arena is
     /// counted in nodes of eight children, 18 words each.
     ///
@@ -116,12 +116,12 @@ impl PackedTree {
 
 /// One of the thesis's octrees.
 #[derive(Clone, Debug)]
-pub struct OctantTree<P> {
+pub struct OwnedOctree<P> {
     nodes: Vec<Octant<P>>,
     links: Vec<ObjectRef>,
 }
 
-impl<P: octray_core::octree::Plane> OctantTree<P> {
+impl<P: octray_core::octree::Plane> OwnedOctree<P> {
     /// Builds the tree, and puts the scene's objects into the order of its leaves.
     pub fn build<S: Quantize<Plane = P>>(
         scene: &mut Quantised<S>,

@@ -5,7 +5,7 @@ use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, quantise};
-use octray_prepare::tree::{Growth, PackedTree};
+use octray_prepare::tree::{Growth, OwnedCompactBvh8};
 use octray_scenes::generate::{Kind, Spec, generate};
 
 const VIEW: RenderSettings = RenderSettings {
@@ -14,7 +14,7 @@ const VIEW: RenderSettings = RenderSettings {
     ..RenderSettings::DEFAULT
 };
 
-fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {
+fn grown(objects: usize) -> (Prepared<f32>, OwnedCompactBvh8) {
     let kind = Kind::Soup;
     let mut prepared = quantise::<f32>(&generate(Spec { kind, objects }, 3), &VIEW).unwrap();
     let options = Options {
@@ -25,7 +25,7 @@ fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {
         options,
         arena: None,
     };
-    let (tree, _) = PackedTree::build(&mut prepared.scene, &growth).unwrap();
+    let (tree, _) = OwnedCompactBvh8::build(&mut prepared.scene, &growth).unwrap();
     (prepared, tree)
 }
 

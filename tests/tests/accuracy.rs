@@ -9,7 +9,7 @@ use octray_prepare::RenderSettings;
 use octray_prepare::bake::Literal;
 use octray_prepare::format::{Format, InFormat};
 use octray_prepare::quantise::quantise;
-use octray_prepare::tree::{Growth, TightTree};
+use octray_prepare::tree::{Growth, OwnedBvh8};
 use octray_render::metric::Difference;
 use octray_scenes::model::Scene;
 use octray_tests::shot::{self, Shot};
@@ -113,7 +113,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
         },
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let (scene, tree) = (prepared.scene.scene(), tree.tree());
     let mut stack = Stack::default();
     let active = prepared.frame.active();

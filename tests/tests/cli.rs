@@ -120,8 +120,8 @@ fn the_json_object_has_the_documented_fields() {
         "seconds",
         "threads",
         "schedule",
-        "packet",
-        "packets",
+        "tile",
+        "tiles",
         "forecast",
         "messages",
         "idle",
@@ -179,7 +179,7 @@ fn the_chosen_packing_is_explained() {
     );
     let explicit = stats(
         folder.path(),
-        "--threads 2 --size 640x480 --schedule static --packet-rows 4",
+        "--threads 2 --size 640x480 --schedule static --tile-rows 4",
     );
     assert_eq!(explicit["forecast"], Value::Null);
     let small = stats(folder.path(), "--threads 2");
@@ -188,9 +188,9 @@ fn the_chosen_packing_is_explained() {
 }
 
 #[test]
-fn threads_schedules_and_packets_change_nothing() {
+fn threads_schedules_and_tiles_change_nothing() {
     let folder = folder();
-    let first = stats(folder.path(), "--threads 1 --packet-rows 1 -o first.ppm");
+    let first = stats(folder.path(), "--threads 1 --tile-rows 1 -o first.ppm");
     let bytes = fs::read(folder.path().join("first.ppm")).unwrap();
     for threads in 1..=3 {
         for schedule in [
@@ -201,9 +201,9 @@ fn threads_schedules_and_packets_change_nothing() {
             "cost-ordered",
             "work-stealing",
         ] {
-            for packet in ["1", "2", "7", "9 --packet-columns 11"] {
+            for tile in ["1", "2", "7", "9 --tile-columns 11"] {
                 let line = format!(
-                    "--threads {threads} --schedule {schedule} --packet-rows {packet} -o b.ppm"
+                    "--threads {threads} --schedule {schedule} --tile-rows {tile} -o b.ppm"
                 );
                 let stats = stats(folder.path(), &line);
                 assert_eq!(stats["rays"], first["rays"], "{line}");
@@ -426,7 +426,7 @@ fn an_interrupt_leaves_no_half_file() {
 fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let folder = folder();
     let line =
-        "schedule a.scene --processors 1,8 --packet-rows 1..8 --tiles 8 --policy static,dynamic";
+        "schedule a.scene --processors 1,8 --tile-rows 1..8 --tiles 8 --policy static,dynamic";
     let table = done(
         folder.path(),
         &format!("{line} -o chart.svg --csv runs.csv --hand-out 500 --per-pixel 2"),
@@ -435,15 +435,15 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let chart = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
     assert!(chart.contains("How well a at 80 x 60 is shared"));
     let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
-    // Two policies, five packets, two numbers of processors.
+    // Two policies, five tiles, two numbers of processors.
     assert_eq!(runs.lines().count(), 1 + 2 * 5 * 2);
-    // Something is to be seen in 56 of 60 rows: a packet of 64 has no more, and costs no more to hand out.
+    // Something is to be seen in 56 of 60 rows: a tile of 64 has no more, and costs no more to hand out.
     let per_pixel = |flags: &str| {
-        let line = "schedule a.scene --processors 1 --packet-rows 64 --policy dynamic --json";
+        let line = "schedule a.scene --processors 1 --tile-rows 64 --policy dynamic --json";
         let told = done(folder.path(), &format!("{line} {flags}"));
         let told: Value = serde_json::from_str(&told).unwrap();
         let run = told["runs"].as_array().unwrap().iter();
-        let mut strips = run.filter(|run| run["packet"]["columns"].is_null());
+        let mut strips = run.filter(|run| run["tile"]["columns"].is_null());
         strips.next().unwrap()["time"].as_f64().unwrap()
     };
     let pixels = per_pixel("--per-pixel 100") - per_pixel("");
@@ -460,7 +460,7 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
         "-o a.txt",
         "-o a.scene",
         "-o b.svg --csv b.svg",
-        "--pixels-per-ray 4 --packet-rows 1 --tiles 5",
+        "--pixels-per-ray 4 --tile-rows 1 --tiles 5",
     ] {
         failed(folder.path(), &format!("schedule a.scene {wrong}"), 2);
     }

@@ -10,7 +10,7 @@ use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
 use octray_core::trace::{Pending, Tracer, Workspace};
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::quantise;
-use octray_prepare::tree::{Growth, TightTree};
+use octray_prepare::tree::{Growth, OwnedBvh8};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -197,7 +197,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         options,
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let scene = prepared.scene.scene();
     let tracer = Tracer {
         scene: &scene,

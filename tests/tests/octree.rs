@@ -12,7 +12,7 @@ use octray_core::vec3::{Axis, Vec3, vec3};
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, Quantised, quantise};
 use octray_prepare::settings;
-use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
 use octray_prepare::{Arith, TreeKind};
 use octray_render::stats::Rays;
 use octray_scenes::generate::{Kind, Spec};
@@ -216,9 +216,9 @@ type Roof<S, T> = (&'static str, Quantised<S>, T);
 struct House<S: Quantize> {
     bare: Quantised<S>,
     all: Vec<ObjectRef>,
-    tight: Roof<S, TightTree<S::Plane>>,
-    packed: Roof<S, PackedTree>,
-    octants: Vec<Roof<S, OctantTree<S::Plane>>>,
+    tight: Roof<S, OwnedBvh8<S::Plane>>,
+    packed: Roof<S, OwnedCompactBvh8>,
+    octants: Vec<Roof<S, OwnedOctree<S::Plane>>>,
 }
 
 impl<S: Quantize> House<S> {
@@ -249,19 +249,19 @@ impl<S: Quantize> House<S> {
             all: every_object(bare),
             tight: {
                 let mut scene = bare.clone();
-                let (tree, _) = TightTree::build(&mut scene, &tight.1);
+                let (tree, _) = OwnedBvh8::build(&mut scene, &tight.1);
                 (tight.0, scene, tree)
             },
             packed: {
                 let mut scene = bare.clone();
-                let (tree, _) = PackedTree::build(&mut scene, &tight.1).expect("few objects");
+                let (tree, _) = OwnedCompactBvh8::build(&mut scene, &tight.1).expect("few objects");
                 ("packed", scene, tree)
             },
             octants: octants
                 .into_iter()
                 .map(|(name, growth, variant, link)| {
                     let mut scene = bare.clone();
-                    let (tree, _) = OctantTree::build(&mut scene, &growth, variant, link);
+                    let (tree, _) = OwnedOctree::build(&mut scene, &growth, variant, link);
                     (name, scene, tree)
                 })
                 .collect(),

@@ -1,21 +1,21 @@
 //! A scene brought into its arithmetic, and the tree grown over it.
 
-use crate::engine::{Built, Engine, Octree};
-use crate::grown::Grown;
-use crate::ready::{Ready, intensity, level};
+use crate::owned::OwnedAccelerator;
+use crate::prepared::{PreparedScene, intensity, level};
+use crate::renderer::{Built, Renderer, TreeStats};
 use octray_core::octree::{self, Summary, Variant};
 use octray_core::scalar::Quantize;
 use octray_prepare::bake::Literal;
 use octray_prepare::format::{Format, InFormat};
 use octray_prepare::quantise::{self, Overflow, Prepared};
 use octray_prepare::settings::{Link, RenderSettings, TreeKind};
-use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 
 /// Why a scene could not be made ready.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Error {
+pub enum PrepareError {
     /// The scene does not fit the arithmetic.
     #[error(transparent)]
     Overflow(#[from] Overflow),
@@ -27,8 +27,11 @@ pub enum Error {
 /// Makes a scene ready.
 ///
 /// # Errors
-/// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the arithmetic or the tree.
-pub fn build(scene: &Scene, settings: &RenderSettings) -> Result<Box<dyn Engine>, Error> {
+/// [`PrepareError::Overflow`] or [`PrepareError::Objects`] if the scene does not fit the arithmetic or the tree.
+pub fn prepare(
+    scene: &Scene,
+    settings: &RenderSettings,
+) -> Result<Box<dyn Renderer>, PrepareError> {
     let format = settings.arith.format(scene, settings.max_depth);
     let request = Request {
         scene,
@@ -46,7 +49,7 @@ struct Request<'a> {
 }
 
 impl InFormat for Request<'_> {
-    type Output = Result<Box<dyn Engine>, Error>;
+    type Output = Result<Box<dyn Renderer>, PrepareError>;
 
     fn run<S: Literal>(self) -> Self::Output {
         self.build::<S>()
@@ -54,7 +57,7 @@ impl InFormat for Request<'_> {
 }
 
 impl Request<'_> {
-    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
+    fn build<S: Quantize>(&self) -> Result<Box<dyn Renderer>, PrepareError> {
         let mut prepared = quantise::quantise::<S>(self.scene, self.settings)?;
         let tree = &self.settings.tree;
         let growth = Growth {
@@ -63,12 +66,12 @@ impl Request<'_> {
         };
         let variant = match tree.kind {
             TreeKind::Bvh8 => {
-                let (tree, summary) = TightTree::build(&mut prepared.scene, &growth);
+                let (tree, summary) = OwnedBvh8::build(&mut prepared.scene, &growth);
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::CompactBvh8 => {
-                let (tree, summary) =
-                    PackedTree::build(&mut prepared.scene, &growth).map_err(|_| Error::Objects)?;
+                let (tree, summary) = OwnedCompactBvh8::build(&mut prepared.scene, &growth)
+                    .map_err(|_| PrepareError::Objects)?;
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::None => {
@@ -86,16 +89,16 @@ impl Request<'_> {
             Link::Shape => octree::Link::Shape,
             Link::Box => octree::Link::Box,
         };
-        let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
+        let (tree, summary) = OwnedOctree::build(&mut prepared.scene, &growth, variant, link);
         Ok(self.ready(prepared, tree, summary))
     }
 
-    fn ready<S: Quantize, T: Grown<S> + 'static>(
+    fn ready<S: Quantize, T: OwnedAccelerator<S> + 'static>(
         &self,
         prepared: Prepared<S>,
         tree: T,
         summary: Summary,
-    ) -> Box<dyn Engine> {
+    ) -> Box<dyn Renderer> {
         let background = prepared.scene.background;
         let built = Built {
             format: self.format,
@@ -103,7 +106,7 @@ impl Request<'_> {
             too_fine: quantise::resolution::<S>(self.scene, self.settings)
                 .err()
                 .map(|fine| fine.to_string()),
-            octree: Octree {
+            tree: TreeStats {
                 kind: self.settings.tree.kind,
                 nodes: u64::from(summary.inner + summary.leaves),
                 links: u64::from(summary.links),
@@ -115,7 +118,7 @@ impl Request<'_> {
             block: prepared.frame.block(),
             background: (level(background), intensity(background)),
         };
-        Box::new(Ready {
+        Box::new(PreparedScene {
             prepared,
             tree,
             built,

@@ -10,8 +10,8 @@ mod ras;
 
 pub use format::{Format, RasDepth, Target, read};
 
-use crate::packet::{Intensity, Level};
-use crate::packets::Part;
+use crate::tile::TileBuffer;
+use crate::tile::{Intensity, Level};
 use fnv::FnvHasher;
 use std::hash::Hasher;
 use std::io;
@@ -91,7 +91,7 @@ impl Picture {
     }
 
     /// Put a part in its place, which must lie in the picture. Intensities are put if both have them.
-    pub fn put(&mut self, part: &Part) {
+    pub fn put(&mut self, part: &TileBuffer) {
         let rows = part.region.rows.start as usize..;
         let (width, left) = (self.width as usize, part.region.columns.start as usize);
         let columns = left..left + part.region.columns.len();

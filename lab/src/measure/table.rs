@@ -3,7 +3,7 @@
 use super::ratio;
 use super::row::{Cost, Row};
 use comfy_table::{CellAlignment, Table, presets};
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
 /// The table, and the costliest functions of each row.
 pub fn text(rows: &[Row], functions: usize) -> String {

@@ -8,7 +8,7 @@ use super::report::{Cheaper, Decision, decibels};
 use octray_core::needs;
 use octray_prepare::PixelsPerRay;
 use octray_prepare::TreeKind;
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
 /// How often rays bounce; `less` tells by how much of themselves the plan's instructions grow with other events.
 pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {

@@ -6,10 +6,10 @@ use super::events::Events;
 use super::job::{Bounds, PlanJob};
 use super::model::Prediction;
 use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
-use super::trial::Trial;
+use super::verify::Verification;
 use octray_prepare::plan::Plan;
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 use serde::Serialize;
 
 /// What there is to tell.
@@ -28,7 +28,7 @@ pub struct Report {
     /// What it will cost; none if nothing is accurate enough.
     pub cost: Option<Cost>,
     /// What was measured, if it was.
-    pub trial: Option<Trial>,
+    pub trial: Option<Verification>,
     /// Which bounds fail, by how much, and with which options it fits.
     pub failures: Vec<String>,
     /// The plan itself.

@@ -160,7 +160,7 @@ pub(super) fn malformed(what: impl Into<String>) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::packet::Level;
+    use crate::tile::Level;
 
     /// More than 256 colours, no symmetry.
     fn colourful(width: u32, height: u32) -> Picture {

@@ -1,7 +1,7 @@
 //! A picture in at most 256 colours.
 
 use super::Picture;
-use crate::packet::Level;
+use crate::tile::Level;
 use quantette::deps::palette::{Srgb, cast};
 use quantette::{ImageRef, PaletteSize, Pipeline};
 use std::collections::BTreeSet;

@@ -2,7 +2,7 @@
 
 use super::format::malformed;
 use super::{Picture, netpbm};
-use crate::packet::Intensity;
+use crate::tile::Intensity;
 use std::io::{self, BufRead, Write};
 
 /// Write the intensities little-endian; a picture without them gives level/255.

@@ -2,7 +2,7 @@
 
 use super::format::malformed;
 use super::{Picture, RasDepth, palette};
-use crate::packet::Level;
+use crate::tile::Level;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 
 const MAGIC: u32 = 0x59a6_6a95;

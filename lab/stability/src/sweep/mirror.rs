@@ -1,12 +1,12 @@
 //! Mirrors at grazing incidence.
 
 use crate::exact::{Exact, angle, dot, exact, sub, times};
+use crate::fixtures::{only, outline, polygon};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
+use crate::mock_accelerator::{self, Seen};
 use crate::number::{self, Number, counted, exactly};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::spy::{self, Seen};
-use crate::stage::{only, outline, polygon};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::octree::Hit;
 use octray_core::ray::Ray;
@@ -102,11 +102,11 @@ pub(super) fn leaving<S: Number>(
         t: S::ZERO,
         object: only(Kind::Polygon),
     };
-    spy::leaving(polygon(&plane, &[]), surface, &ray, hit)
+    mock_accelerator::leaving(polygon(&plane, &[]), surface, &ray, hit)
 }
 
 fn shipped<S: Number>(incoming: Vec3<S>, normal: Vec3<S>) -> Vec3<S> {
-    let seen = leaving(incoming, normal, spy::mirror());
+    let seen = leaving(incoming, normal, mock_accelerator::mirror());
     seen.follow.first().map_or(Vec3::ZERO, |ray| ray.direction)
 }
 

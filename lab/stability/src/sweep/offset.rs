@@ -2,10 +2,10 @@
 //! close by (light leaks).
 
 use crate::method::{About, Form, SHIPPED, Sweep};
+use crate::mock_accelerator;
 use crate::number::{self, Number, counted};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::spy;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::octree::Hit;
 use octray_core::ray::Ray;
@@ -135,7 +135,7 @@ fn shipped<S: Number>(
     let ray = number::ray(prepared.placement.point(eye), towards);
     let t = shapes.hit(from, &ray, prepared.scene.reach, &mut ())?;
     let hit = Hit { t, object: from };
-    let seen = spy::leaving(shapes, spy::mirror(), &ray, hit);
+    let seen = mock_accelerator::leaving(shapes, mock_accelerator::mirror(), &ray, hit);
     let leaving = Ray {
         origin: seen.follow.first()?.origin,
         direction: away,

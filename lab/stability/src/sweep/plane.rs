@@ -1,11 +1,11 @@
 //! Planes that a ray is nearly parallel to.
 
 use crate::exact::{Exact, dot, near};
+use crate::fixtures::{self, outline, polygon, square};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage::{self, outline, polygon, square};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape::{Flat, Kind};
@@ -69,7 +69,7 @@ impl Sweep for Plane {
             let truth = truth(&square.plane, &ray).filter(|t| *t <= limit.exact());
             let shipped = || {
                 let shapes = polygon(&square, &corners);
-                Some(stage::hit(&shapes, Kind::Polygon, &ray, limit)?.0)
+                Some(fixtures::hit(&shapes, Kind::Polygon, &ray, limit)?.0)
             };
             let textbook = || textbook(&square.plane, &ray, limit);
             let found = [counted(shipped), counted(textbook)];

@@ -1,11 +1,11 @@
 //! Boxes: rays along their faces and past their edges and corners.
 
 use crate::exact::{Exact, exact, near};
+use crate::fixtures::{cuboid, hit};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage::{cuboid, hit};
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape::{Cuboid, Kind};

@@ -1,11 +1,11 @@
 //! A sphere seen from far away.
 
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, near, root, sub, times};
+use crate::fixtures;
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::ray::Ray;
 use octray_core::shape::{self, Kind};
@@ -125,7 +125,7 @@ pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Optio
 
 /// What octray does.
 pub(super) fn stable<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
-    stage::hit(&stage::sphere(sphere), Kind::Sphere, ray, S::MAX)
+    fixtures::hit(&fixtures::sphere(sphere), Kind::Sphere, ray, S::MAX)
 }
 
 /// Thesis (2.8). The difference is formed in the wide type, so that fixed point has a chance.

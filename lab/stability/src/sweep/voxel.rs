@@ -13,7 +13,7 @@ use octray_core::scene::Scene;
 use octray_core::shape::{self, Kind, ObjectRef, Shapes};
 use octray_core::vec3::{Axis, Vec3};
 use octray_prepare::quantise::Prepared;
-use octray_prepare::tree::{Growth, OctantTree, TightTree};
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedOctree};
 use octray_scenes::model::Shape;
 
 /// Rays along axes and diagonals, or at a slope of 1 to 10⁻⁷ against them, through corners of cells
@@ -72,8 +72,8 @@ impl Sweep for Voxel {
         };
         // Building a tree puts the objects into its own order.
         let (mut in_tight, mut in_octants) = (prepared.scene.clone(), prepared.scene.clone());
-        let (tight, _) = TightTree::build(&mut in_tight, &growth);
-        let (octants, _) = OctantTree::build(&mut in_octants, &growth, Variant::Plain, Link::Box);
+        let (tight, _) = OwnedBvh8::build(&mut in_tight, &growth);
+        let (octants, _) = OwnedOctree::build(&mut in_octants, &growth, Variant::Plain, Link::Box);
         let (in_tight, in_octants) = (in_tight.scene(), in_octants.scene());
         let (tight, octants) = (tight.tree(), octants.tree());
         let grid = Grid::new(&prepared);

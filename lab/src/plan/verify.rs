@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 
 /// What was measured, and by how much of itself the prediction is too large.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Trial {
+pub struct Verification {
     /// Instructions, start-up and panel left out.
     pub instructions: u64,
     /// Bytes of flash.
@@ -45,7 +45,7 @@ pub fn run(
     cost: &Cost,
     board: &'static Board,
     interrupt: &Interrupt,
-) -> Result<Trial, Error> {
+) -> Result<Verification, Error> {
     let failed = |why: String| Error::Failed(format!("the firmware on {board}: {why}"));
     let expected = Probe::render(scene, plan, interrupt)?.picture.hash();
     let root = Workspace::root()?;
@@ -83,7 +83,7 @@ pub fn run(
     let measured = [run.count.instructions, memory.flash, memory.ram + stack];
     let predicted = [cost.instructions, cost.flash, cost.ram];
     let [instructions, flash, ram] = measured;
-    Ok(Trial {
+    Ok(Verification {
         instructions,
         flash,
         ram,

@@ -4,21 +4,21 @@ use super::subject::{Subject, Trial};
 use octray_core::packet::Region;
 use octray_prepare::{RenderSettings, TreeSettings};
 use octray_render::cost::{self, CostMap};
-use octray_render::deal::Policy;
-use octray_render::engine;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packets::Shape;
+use octray_render::render::Rendering;
+use octray_render::render::render_with;
+use octray_render::renderer;
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::Policy;
 use octray_render::stats::Rays;
-use octray_render::trace::Traced;
-use octray_render::trace::trace;
-use octray_render::work::WorkOptions;
+use octray_render::tile::TileSize;
 use std::cell::RefCell;
 use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Traces, and remembers what came out.
 #[derive(Debug)]
-pub struct Lab<'a> {
+pub struct Runs<'a> {
     /// Columns and rows; the scenes' own if `None`.
     pub size: Option<(u32, u32)>,
     /// Whether time is taken, for which one thread works.
@@ -45,7 +45,7 @@ pub struct Tally {
     pub seconds: f64,
 }
 
-impl<'a> Lab<'a> {
+impl<'a> Runs<'a> {
     /// Nothing is traced yet.
     pub fn new(size: Option<(u32, u32)>, time: bool, interrupt: &'a Interrupt) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl<'a> Lab<'a> {
     /// What tracing a scene takes, in f32.
     ///
     /// # Errors
-    /// As [`trace`].
+    /// As [`render_with`].
     pub fn tally(&self, trial: Trial) -> Result<Tally, Error> {
         let known = |seen: &Vec<(Trial, Tally)>| {
             let found = seen.iter().find(|(other, _)| *other == trial);
@@ -68,16 +68,16 @@ impl<'a> Lab<'a> {
         if let Some(tally) = known(&self.seen.borrow()) {
             return Ok(tally);
         }
-        let mut work = WorkOptions {
+        let mut work = Schedule {
             policy: Policy::Dynamic,
-            packet: Some(Shape::strip(const { NonZeroU32::new(4).unwrap() })),
-            ..WorkOptions::default()
+            tile: Some(TileSize::strip(const { NonZeroU32::new(4).unwrap() })),
+            ..Schedule::default()
         };
         if self.time {
             work.threads = NonZeroUsize::MIN;
         }
         let (scene, settings) = (trial.scene()?, self.settings(&trial));
-        let traced = trace(&scene, &settings, &work, false, &(), self.interrupt)?;
+        let traced = render_with(&scene, &settings, &work, false, &(), self.interrupt)?;
         let tally = Tally::of(&traced);
         self.seen.borrow_mut().push((trial, tally));
         Ok(tally)
@@ -92,12 +92,12 @@ impl<'a> Lab<'a> {
     /// What each pixel of a scene costs, and the rows that cost anything.
     ///
     /// # Errors
-    /// As [`engine::build`] and [`CostMap::probe`].
+    /// As [`renderer::prepare`] and [`CostMap::probe`].
     pub fn map(&self, subject: Subject) -> Result<(CostMap, Region), Error> {
         let trial = Trial::of(subject);
-        let engine = engine::build(&trial.scene()?, &self.settings(&trial))?;
-        let map = CostMap::probe(&*engine, NonZeroU32::MIN, self.interrupt)?;
-        Ok((map, engine.built().region()))
+        let renderer = renderer::prepare(&trial.scene()?, &self.settings(&trial))?;
+        let map = CostMap::probe(&*renderer, NonZeroU32::MIN, self.interrupt)?;
+        Ok((map, renderer.built().region()))
     }
 
     /// The defaults of `octray render`.
@@ -112,7 +112,7 @@ impl<'a> Lab<'a> {
 }
 
 impl Tally {
-    fn of(traced: &Traced) -> Self {
+    fn of(traced: &Rendering) -> Self {
         let counters = &traced.counters;
         Self {
             pixels: traced.picture.levels().len() as u64,
@@ -133,10 +133,10 @@ mod tests {
     #[test]
     fn the_cost_of_a_trial_is_that_of_its_map() {
         let interrupt = Interrupt::new();
-        let lab = Lab::new(Some((48, 32)), false, &interrupt);
-        let tally = lab.tally(Trial::of(FIGURES[2])).unwrap();
-        let (map, _) = lab.map(FIGURES[2]).unwrap();
-        // What blocked a light last is forgotten between packets, and tests of boxes are dear: 4 % in so small a
+        let runs = Runs::new(Some((48, 32)), false, &interrupt);
+        let tally = runs.tally(Trial::of(FIGURES[2])).unwrap();
+        let (map, _) = runs.map(FIGURES[2]).unwrap();
+        // What blocked a light last is forgotten between tiles, and tests of boxes are dear: 4 % in so small a
         // picture.
         let beyond = map.total() / tally.instructions - 1.0;
         assert!(beyond.abs() < 0.05, "{beyond}");
@@ -145,7 +145,7 @@ mod tests {
             larger: true,
             ..Trial::of(FIGURES[2])
         };
-        assert_eq!(lab.tally(larger).unwrap().pixels, 60 * 40);
-        assert_eq!(lab.traced(), 2);
+        assert_eq!(runs.tally(larger).unwrap().pixels, 60 * 40);
+        assert_eq!(runs.traced(), 2);
     }
 }

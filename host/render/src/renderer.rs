@@ -2,11 +2,11 @@
 //!
 //! Arithmetic and tree are chosen at run time among all that are compiled in, and only here, so that each pair of
 //! them is compiled once, whoever traces: `octray render`, the simulation of schedules, the ranks of a distributed
-//! rendering. [`build()`] makes an [`Engine`], whose [`Worker`]s fill tiles of the picture.
+//! rendering. [`prepare()`] makes a [`Renderer`], whose [`Worker`]s fill tiles of the picture.
 
-pub use crate::build::{Error, build};
+pub use crate::build::{PrepareError, prepare};
 
-use crate::packet::{Intensity, Level, Packet};
+use crate::tile::{Intensity, Level, Tile};
 use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use octray_prepare::format::Format;
@@ -14,7 +14,7 @@ use octray_prepare::settings::TreeKind;
 use serde::Serialize;
 
 /// A scene in one arithmetic, with one tree.
-pub trait Engine: Send + Sync {
+pub trait Renderer: Send + Sync {
     /// What there is to know of it.
     fn built(&self) -> &Built;
 
@@ -24,8 +24,8 @@ pub trait Engine: Send + Sync {
 
 /// Traces parts of a picture, one after the other, and counts.
 pub trait Worker: Send {
-    /// Fills a packet: its pixels, and the background where nothing is to be seen.
-    fn trace(&mut self, packet: Packet<'_>);
+    /// Fills a tile: its pixels, and the background where nothing is to be seen.
+    fn trace(&mut self, tile: Tile<'_>);
 
     /// Traces some pixels only to count what they cost. What it learnt of the scene before is kept, so pixel
     /// by pixel costs what all of them at once do.
@@ -57,8 +57,8 @@ pub struct Built {
     pub scale: i32,
     /// What the format is too coarse for, if anything.
     pub too_fine: Option<String>,
-    /// The octree.
-    pub octree: Octree,
+    /// The tree.
+    pub tree: TreeStats,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// The pixels that may show anything but background.
@@ -70,7 +70,7 @@ pub struct Built {
 }
 
 impl Built {
-    /// What packets are cut of: the rows that may show anything but background, whole.
+    /// What tiles are cut of: the rows that may show anything but background, whole.
     pub fn region(&self) -> Region {
         Region {
             columns: 0..self.size.0,
@@ -79,9 +79,9 @@ impl Built {
     }
 }
 
-/// The octree that was built.
+/// The tree that was built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Octree {
+pub struct TreeStats {
     /// Its kind.
     pub kind: TreeKind,
     /// Nodes.

@@ -3,10 +3,10 @@
 use octray_core::octree::{Accelerator, List, Octants, Packed, Plane, Tight};
 use octray_core::scalar::Quantize;
 use octray_core::shape::ObjectRef;
-use octray_prepare::tree::{OctantTree, PackedTree, TightTree};
+use octray_prepare::tree::{OwnedBvh8, OwnedCompactBvh8, OwnedOctree};
 
 /// A tree in memory of its own.
-pub(crate) trait Grown<S: Quantize>: Send + Sync {
+pub(crate) trait OwnedAccelerator<S: Quantize>: Send + Sync {
     /// The tree as the tracer sees it.
     type View<'a>: Accelerator<S> + Send
     where
@@ -15,7 +15,7 @@ pub(crate) trait Grown<S: Quantize>: Send + Sync {
     fn view(&self) -> Self::View<'_>;
 }
 
-impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for TightTree<P> {
+impl<S: Quantize<Plane = P>, P: Plane> OwnedAccelerator<S> for OwnedBvh8<P> {
     type View<'a> = Tight<'a, P>;
 
     fn view(&self) -> Tight<'_, P> {
@@ -23,7 +23,7 @@ impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for TightTree<P> {
     }
 }
 
-impl<S: Quantize> Grown<S> for PackedTree {
+impl<S: Quantize> OwnedAccelerator<S> for OwnedCompactBvh8 {
     type View<'a> = Packed<'a>;
 
     fn view(&self) -> Packed<'_> {
@@ -31,7 +31,7 @@ impl<S: Quantize> Grown<S> for PackedTree {
     }
 }
 
-impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for OctantTree<P> {
+impl<S: Quantize<Plane = P>, P: Plane> OwnedAccelerator<S> for OwnedOctree<P> {
     type View<'a> = Octants<'a, P>;
 
     fn view(&self) -> Octants<'_, P> {
@@ -40,7 +40,7 @@ impl<S: Quantize<Plane = P>, P: Plane> Grown<S> for OctantTree<P> {
 }
 
 /// No tree: every object.
-impl<S: Quantize> Grown<S> for Vec<ObjectRef> {
+impl<S: Quantize> OwnedAccelerator<S> for Vec<ObjectRef> {
     type View<'a> = List<'a>;
 
     fn view(&self) -> List<'_> {

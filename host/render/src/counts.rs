@@ -5,7 +5,7 @@ use std::fmt;
 
 /// How many there are of everything in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Facts {
+pub struct SceneCounts {
     /// Spheres.
     pub spheres: usize,
     /// Cones and cylinders.
@@ -22,7 +22,7 @@ pub struct Facts {
     pub lights: usize,
 }
 
-impl Facts {
+impl SceneCounts {
     /// Count what is in `scene`.
     pub fn of(scene: &Scene) -> Self {
         let mut facts = Self {
@@ -44,7 +44,7 @@ impl Facts {
 }
 
 /// One line: objects by kind (or `no objects`), surfaces, lights.
-impl fmt::Display for Facts {
+impl fmt::Display for SceneCounts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let objects = [
             (self.spheres, "sphere", "spheres"),
@@ -95,16 +95,16 @@ mod tests {
 
     #[test]
     fn only_what_is_there_is_named_and_one_is_not_plural() {
-        let facts = Facts {
+        let facts = SceneCounts {
             spheres: 7382,
             polygons: 1,
             surfaces: 2,
             lights: 1,
-            ..Facts::default()
+            ..SceneCounts::default()
         };
         let text = "7,382 spheres, 1 polygon, 2 surfaces, 1 light";
         assert_eq!(facts.to_string(), text);
-        let nothing = Facts::default().to_string();
+        let nothing = SceneCounts::default().to_string();
         assert_eq!(nothing, "no objects, 0 surfaces, 0 lights");
     }
 

@@ -1,9 +1,9 @@
 //! A scene in some arithmetic with some tree, and what one thread traces it with.
 
-use crate::apart::Apart;
-use crate::engine::{Built, Engine, FirstHit, Worker};
-use crate::grown::Grown;
-use crate::packet::{Intensity, Level, Packet};
+use crate::cache_padded::CachePadded;
+use crate::owned::OwnedAccelerator;
+use crate::renderer::{Built, FirstHit, Renderer, Worker};
+use crate::tile::{Intensity, Level, Tile};
 use octray_core::observe::Counters;
 use octray_core::octree::Accelerator;
 use octray_core::packet::Region;
@@ -14,7 +14,7 @@ use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 
 /// A scene in arithmetic `S` with a tree.
-pub(crate) struct Ready<S: Quantize, T> {
+pub(crate) struct PreparedScene<S: Quantize, T> {
     pub(crate) prepared: Prepared<S>,
     pub(crate) tree: T,
     pub(crate) built: Built,
@@ -22,7 +22,7 @@ pub(crate) struct Ready<S: Quantize, T> {
     pub(crate) cut_off: S,
 }
 
-impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
+impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
     fn built(&self) -> &Built {
         &self.built
     }
@@ -32,29 +32,29 @@ impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
         Box::new(Tracing {
             ready: self,
             tree: self.tree.view(),
-            rays: Apart::new(Pending::EMPTY, self.max_depth as usize + 2),
+            rays: CachePadded::new(Pending::EMPTY, self.max_depth as usize + 2),
             stack: Default::default(),
-            blockers: Apart::new(None, scene.lights.len()),
+            blockers: CachePadded::new(None, scene.lights.len()),
             counters: Counters::default(),
         })
     }
 }
 
-/// What one thread traces with, in cache lines of its own as [`Apart`] has it.
+/// What one thread traces with, in cache lines of its own as [`CachePadded`] has it.
 #[repr(align(128))]
-struct Tracing<'a, S: Quantize, T: Grown<S>> {
-    ready: &'a Ready<S, T>,
+struct Tracing<'a, S: Quantize, T: OwnedAccelerator<S>> {
+    ready: &'a PreparedScene<S, T>,
     tree: T::View<'a>,
-    rays: Apart<Pending<S>>,
+    rays: CachePadded<Pending<S>>,
     stack: Stack<'a, S, T>,
-    blockers: Apart<Option<ObjectRef>>,
+    blockers: CachePadded<Option<ObjectRef>>,
     counters: Counters,
 }
 
 /// What the walk through a tree needs.
-type Stack<'a, S, T> = <<T as Grown<S>>::View<'a> as Accelerator<S>>::Stack;
+type Stack<'a, S, T> = <<T as OwnedAccelerator<S>>::View<'a> as Accelerator<S>>::Stack;
 
-impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
+impl<'a, S: Quantize, T: OwnedAccelerator<S>> Tracing<'a, S, T> {
     /// Does something with what it takes to trace a ray.
     fn with<R>(
         &mut self,
@@ -87,19 +87,19 @@ impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
     }
 }
 
-impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
-    fn trace(&mut self, packet: Packet<'_>) {
-        let Packet {
+impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
+    fn trace(&mut self, tile: Tile<'_>) {
+        let Tile {
             region,
             levels,
             mut intensities,
-        } = packet;
+        } = tile;
         let background = self.ready.built.background;
         levels.fill(background.0);
         if let Some(intensities) = &mut intensities {
             intensities.fill(background.1);
         }
-        // What blocked the lights last in another packet must not change what is counted in this one.
+        // What blocked the lights last in another tile must not change what is counted in this one.
         self.blockers.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();

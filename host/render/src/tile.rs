@@ -1,21 +1,37 @@
-//! Cutting a picture into packets, strips of rows or tiles, and the memory that each is traced into.
+//! Cutting a picture into tiles (rectangles, or strips of whole rows), and the memory that each is traced into.
 
-use crate::packet::{Intensity, Level, Packet};
 use octray_core::packet::Region;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// How large packets are; those at the right and at the bottom may be smaller.
+/// Red, green and blue in 8 bits, 255 being full intensity.
+pub type Level = [u8; 3];
+
+/// Red, green and blue as linear intensities, 1 being full intensity.
+pub type Intensity = [f32; 3];
+
+/// One tile, to be written into.
+#[derive(Debug)]
+pub struct Tile<'a> {
+    /// Which pixels of the picture these are.
+    pub region: Region,
+    /// Their levels, row by row, as many as the region has pixels.
+    pub levels: &'a mut [Level],
+    /// As many intensities, if the picture has them.
+    pub intensities: Option<&'a mut [Intensity]>,
+}
+
+/// How large tiles are; those at the right and at the bottom may be smaller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct Shape {
+pub struct TileSize {
     /// Rows.
     pub rows: NonZeroU32,
     /// Columns; whole rows if `None`.
     pub columns: Option<NonZeroU32>,
 }
 
-impl Shape {
+impl TileSize {
     /// Whole rows.
     pub const fn strip(rows: NonZeroU32) -> Self {
         Self {
@@ -32,7 +48,7 @@ impl Shape {
         }
     }
 
-    /// How many packets there are beside each other in a region.
+    /// How many tiles there are beside each other in a region.
     pub fn across(self, region: &Region) -> usize {
         let width = region.columns.len();
         match self.columns {
@@ -41,17 +57,17 @@ impl Shape {
         }
     }
 
-    /// How many rows of packets there are in a region.
+    /// How many rows of tiles there are in a region.
     pub fn down(self, region: &Region) -> usize {
         region.rows.len().div_ceil(self.rows.get() as usize)
     }
 
-    /// How many packets cover a region.
+    /// How many tiles cover a region.
     pub fn count(self, region: &Region) -> usize {
         self.across(region) * self.down(region)
     }
 
-    /// The packets that cover a region, row by row from its upper left corner.
+    /// The tiles that cover a region, row by row from its upper left corner.
     pub fn cut(self, region: &Region) -> impl Iterator<Item = Region> {
         let (rows, columns) = (region.rows.clone(), region.columns.clone());
         let width = self.columns.map_or(u32::MAX, NonZeroU32::get);
@@ -68,7 +84,7 @@ impl Shape {
 }
 
 /// `4 rows` or `16 x 8 pixels`, the columns first.
-impl fmt::Display for Shape {
+impl fmt::Display for TileSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.columns, self.rows.get()) {
             (Some(columns), rows) => write!(f, "{columns} x {rows} pixels"),
@@ -79,9 +95,9 @@ impl fmt::Display for Shape {
 }
 
 /// A part of a picture in memory of its own, so that threads which trace parts beside each other do not write
-/// into the same cache lines; [`crate::assembly`] makes a picture of them.
+/// into the same cache lines; [`crate::framebuffer`] makes a picture of them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct TileBuffer {
     /// Which pixels of the picture these are.
     pub region: Region,
     /// Their levels, row by row.
@@ -90,7 +106,7 @@ pub struct Part {
     pub intensities: Option<Vec<Intensity>>,
 }
 
-impl Part {
+impl TileBuffer {
     /// A part of a picture, with intensities or without, to be traced.
     pub fn black(region: Region, holds_intensities: bool) -> Self {
         let pixels = region.columns.len() * region.rows.len();
@@ -102,8 +118,8 @@ impl Part {
     }
 
     /// The same to be written into.
-    pub fn packet(&mut self) -> Packet<'_> {
-        Packet {
+    pub fn tile(&mut self) -> Tile<'_> {
+        Tile {
             region: self.region.clone(),
             levels: &mut self.levels,
             intensities: self.intensities.as_deref_mut(),
@@ -116,25 +132,25 @@ mod tests {
     use super::*;
     use crate::picture::Picture;
 
-    fn shape(rows: u32, columns: u32) -> Shape {
-        Shape {
+    fn shape(rows: u32, columns: u32) -> TileSize {
+        TileSize {
             rows: NonZeroU32::new(rows).unwrap(),
             columns: NonZeroU32::new(columns),
         }
     }
 
-    /// Marks the pixels of each packet with its row, its column and 1; they must not be marked before.
-    fn paint(region: &Region, shape: Shape) -> Picture {
+    /// Marks the pixels of each tile with its row, its column and 1; they must not be marked before.
+    fn paint(region: &Region, shape: TileSize) -> Picture {
         let mut picture = Picture::black(7, 23, true).unwrap();
         for region in shape.cut(region) {
-            let mut part = Part::black(region, true);
+            let mut part = TileBuffer::black(region, true);
             let (rows, columns) = (part.region.rows.clone(), part.region.columns.clone());
             let places = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
             for (pixel, (row, column)) in places.enumerate() {
                 let before = picture.levels()[(row * 7 + column) as usize];
                 assert_eq!(before, [0; 3]);
                 part.levels[pixel] = [row as u8, column as u8, 1];
-                part.packet().intensities.unwrap()[pixel] = [row as f32, column as f32, 1.0];
+                part.tile().intensities.unwrap()[pixel] = [row as f32, column as f32, 1.0];
             }
             picture.put(&part);
         }
@@ -142,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn packets_cover_their_region_and_nothing_else() {
+    fn tiles_cover_their_region_and_nothing_else() {
         let shapes = [(1, 0), (4, 0), (1000, 0), (1, 1), (4, 3), (5, 1000)];
         for (height, width) in shapes {
             for rows in [0..23, 7..20, 22..23, 5..5] {

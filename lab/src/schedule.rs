@@ -1,4 +1,4 @@
-//! `octray schedule`: how well a picture is shared, over policies, packets and numbers of processors.
+//! `octray schedule`: how well a picture is shared, over policies, tiles and numbers of processors.
 
 mod chart;
 
@@ -8,13 +8,13 @@ use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_core::packet::Region;
 use octray_prepare::RenderSettings;
-use octray_render::cost::{CostMap, dearest_first};
-use octray_render::deal::{Deal, Policy};
-use octray_render::engine;
+use octray_render::cost::{CostMap, most_expensive_first};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
-use octray_render::packets::Shape;
+use octray_render::renderer;
+use octray_render::scheduler::{Policy, Scheduler};
+use octray_render::tile::TileSize;
 use serde::Serialize;
 use std::io;
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -22,22 +22,22 @@ use std::path::PathBuf;
 
 /// What `octray schedule` was asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SweepJob {
+pub struct ScheduleJob {
     /// The scene file.
     pub scene: PathBuf,
     /// Numbers of processors.
     pub processors: Vec<NonZeroUsize>,
-    /// Shapes of packets.
-    pub shapes: Vec<Shape>,
+    /// Shapes of tiles.
+    pub shapes: Vec<TileSize>,
     /// Ways to deal them.
     pub policies: Vec<Policy>,
     /// What to trace, and with which tree.
     pub settings: RenderSettings,
     /// The machine.
     pub machine: Machine,
-    /// Instructions beside [`Machine::hand_out`] for each pixel of a packet that comes from others.
+    /// Instructions beside [`Machine::hand_out`] for each pixel of a tile that comes from others.
     pub per_pixel: f64,
-    /// Whether packets come in messages from the first processor ([`Deal::in_messages`]).
+    /// Whether tiles come in messages from the first processor ([`Scheduler::in_messages`]).
     pub messages: bool,
     /// Whether to print JSON.
     pub json: bool,
@@ -52,10 +52,10 @@ pub struct SweepJob {
 pub struct Run {
     /// Who gets what.
     pub policy: Policy,
-    /// How large packets are.
-    pub packet: Shape,
-    /// How many packets there are.
-    pub packets: usize,
+    /// How large tiles are.
+    pub tile: TileSize,
+    /// How many tiles there are.
+    pub tiles: usize,
     /// How many processors.
     pub processors: NonZeroUsize,
     /// What comes of it.
@@ -68,20 +68,20 @@ pub struct Run {
 /// # Errors
 /// When the scene is refused or does not fit the arithmetic, when interrupted, or when standard output cannot
 /// be written.
-pub fn run(job: &SweepJob, interrupt: &Interrupt) -> Result<(), Error> {
+pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.csv.iter().chain(&job.chart) {
         output::probe(path)?;
     }
     let scene = octray_scenes::read(&job.scene)?;
-    let engine = engine::build(&scene, &job.settings)?;
-    let map = CostMap::probe(&*engine, NonZeroU32::MIN, interrupt)?;
-    let region = engine.built().region();
+    let renderer = renderer::prepare(&scene, &job.settings)?;
+    let map = CostMap::probe(&*renderer, NonZeroU32::MIN, interrupt)?;
+    let region = renderer.built().region();
     let runs = sweep(job, &map, &region, interrupt)?;
     if let Some(path) = &job.csv {
         output::write_file(path, interrupt, |out| write_csv(&runs, out))?;
     }
     if let Some(path) = &job.chart {
-        let (width, height) = engine.built().size;
+        let (width, height) = renderer.built().size;
         let name = job.scene.file_stem().unwrap_or_default().to_string_lossy();
         let title = format!("How well {name} at {width} x {height} is shared");
         let chart = Chart::new(title, &runs, &job.policies, &job.shapes, &job.processors);
@@ -100,31 +100,31 @@ pub fn run(job: &SweepJob, interrupt: &Interrupt) -> Result<(), Error> {
 
 /// Simulate every combination.
 fn sweep(
-    job: &SweepJob,
+    job: &ScheduleJob,
     map: &CostMap,
     region: &Region,
     interrupt: &Interrupt,
 ) -> Result<Vec<Run>, Error> {
     let mut runs = Vec::new();
-    for &packet in &job.shapes {
-        let parts: Vec<Region> = packet.cut(region).collect();
+    for &tile in &job.shapes {
+        let parts: Vec<Region> = tile.cut(region).collect();
         let costs: Vec<f64> = parts.iter().map(|part| map.cost(part)).collect();
-        let order = dearest_first(&costs);
+        let order = most_expensive_first(&costs);
         let pixels = |part: &Region| part.columns.len() as f64 * part.rows.len() as f64;
         for &policy in &job.policies {
             for &processors in &job.processors {
                 interrupt.check()?;
-                let mut deal = Deal::new(policy, costs.len(), processors, order.clone());
+                let mut deal = Scheduler::new(policy, costs.len(), processors, order.clone());
                 if job.messages {
                     deal = deal.in_messages();
                 }
                 runs.push(Run {
                     policy,
-                    packet,
-                    packets: costs.len(),
+                    tile,
+                    tiles: costs.len(),
                     processors,
-                    outcome: simulate_messages(&costs, &deal, &job.machine, |packet| {
-                        job.per_pixel * pixels(&parts[packet])
+                    outcome: simulate_messages(&costs, &deal, &job.machine, |tile| {
+                        job.per_pixel * pixels(&parts[tile])
                     }),
                 });
             }
@@ -140,7 +140,7 @@ fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
         "policy",
         "rows",
         "columns",
-        "packets",
+        "tiles",
         "processors",
         "time",
         "speed_up",
@@ -152,12 +152,12 @@ fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
             speed_up,
             efficiency,
         } = run.outcome;
-        let columns = run.packet.columns;
+        let columns = run.tile.columns;
         csv.write_record([
             run.policy.name().to_owned(),
-            run.packet.rows.to_string(),
+            run.tile.rows.to_string(),
             columns.map_or(String::new(), |columns| columns.to_string()),
-            run.packets.to_string(),
+            run.tiles.to_string(),
             run.processors.to_string(),
             time.to_string(),
             speed_up.to_string(),
@@ -173,11 +173,11 @@ fn best(runs: &[Run], fits: impl Fn(&Run) -> bool) -> Option<&Run> {
     runs.max_by(|a, b| f64::total_cmp(&a.outcome.speed_up, &b.outcome.speed_up))
 }
 
-/// For each number of processors the best speed-up of each policy, in strips and in tiles, and the packet.
-fn table(job: &SweepJob, runs: &[Run]) -> Table {
+/// For each number of processors the best speed-up of each policy, in strips and in tiles, and the tile.
+fn table(job: &ScheduleJob, runs: &[Run]) -> Table {
     let mut table = Table::new();
     let names = job.policies.iter().map(|policy| policy.name());
-    let heading = ["processors", "packets"].into_iter().chain(names);
+    let heading = ["processors", "tiles"].into_iter().chain(names);
     table
         .load_style(presets::ASCII_MARKDOWN)
         .set_header(heading);
@@ -186,12 +186,12 @@ fn table(job: &SweepJob, runs: &[Run]) -> Table {
             let of = |policy| {
                 best(runs, |run| {
                     (run.policy, run.processors) == (policy, processors)
-                        && run.packet.columns.is_some() == tiles
+                        && run.tile.columns.is_some() == tiles
                 })
             };
             let cell = |policy| {
                 of(policy).map_or(String::new(), |run| {
-                    format!("{:.2} ({})", run.outcome.speed_up, run.packet)
+                    format!("{:.2} ({})", run.outcome.speed_up, run.tile)
                 })
             };
             let cells = job.policies.iter().map(|policy| cell(*policy));

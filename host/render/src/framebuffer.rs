@@ -1,28 +1,28 @@
-//! Putting a picture together from the packets that threads trace.
+//! Putting a picture together from the tiles that threads trace.
 
-use crate::packets::{Part, Shape};
 use crate::picture::Picture;
+use crate::tile::{TileBuffer, TileSize};
 use octray_core::packet::Region;
 use std::mem;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A picture that threads put together.
 ///
-/// Packets beside each other share the cache lines in which their rows meet, and a line that two threads write in
-/// turn goes to and fro between their cores. So packets wait for all others of their row, and whoever brings the
+/// Tiles beside each other share the cache lines in which their rows meet, and a line that two threads write in
+/// turn goes to and fro between their cores. So tiles wait for all others of their row, and whoever brings the
 /// last one writes them all: with two threads and tiles of 16 x 16 the figures take about 1 % less time.
 #[derive(Debug)]
-pub struct Assembly {
+pub struct Framebuffer {
     picture: Mutex<Picture>,
-    /// For every row of packets those that wait for the rest of it.
-    rows: Vec<Mutex<Vec<Part>>>,
-    /// Packets to a row.
+    /// For every row of tiles those that wait for the rest of it.
+    rows: Vec<Mutex<Vec<TileBuffer>>>,
+    /// Tiles to a row.
     across: usize,
 }
 
-impl Assembly {
-    /// A picture of which a region comes in packets of a shape, numbered as [`Shape::cut`] has them.
-    pub fn new(picture: Picture, region: &Region, shape: Shape) -> Self {
+impl Framebuffer {
+    /// A picture of which a region comes in tiles of a shape, numbered as [`TileSize::cut`] has them.
+    pub fn new(picture: Picture, region: &Region, shape: TileSize) -> Self {
         let rows = 0..shape.down(region);
         Self {
             picture: Mutex::new(picture),
@@ -31,9 +31,9 @@ impl Assembly {
         }
     }
 
-    /// Take packet number `packet`, traced; each is to be given once.
-    pub fn put(&self, packet: usize, part: Part) {
-        let mut row = lock(&self.rows[packet / self.across]);
+    /// Take tile number `tile`, traced; each is to be given once.
+    pub fn put(&self, tile: usize, part: TileBuffer) {
+        let mut row = lock(&self.rows[tile / self.across]);
         row.push(part);
         if row.len() < self.across {
             return;
@@ -46,7 +46,7 @@ impl Assembly {
         }
     }
 
-    /// The picture, with all rows of packets that were given whole.
+    /// The picture, with all rows of tiles that were given whole.
     pub fn into_picture(self) -> Picture {
         let picture = self.picture.into_inner();
         picture.unwrap_or_else(PoisonError::into_inner)
@@ -63,14 +63,14 @@ mod tests {
     use super::*;
     use std::num::NonZeroU32;
 
-    fn tile(side: u32) -> Shape {
-        Shape::tile(NonZeroU32::new(side).unwrap())
+    fn tile(side: u32) -> TileSize {
+        TileSize::tile(NonZeroU32::new(side).unwrap())
     }
 
-    /// The packets of a region, each of one level of grey by its number.
-    fn parts(region: &Region, shape: Shape) -> Vec<Part> {
+    /// The tiles of a region, each of one level of grey by its number.
+    fn parts(region: &Region, shape: TileSize) -> Vec<TileBuffer> {
         let grey = |(number, region)| {
-            let mut part = Part::black(region, false);
+            let mut part = TileBuffer::black(region, false);
             part.levels.fill([number; 3]);
             part
         };
@@ -85,16 +85,16 @@ mod tests {
     }
 
     #[test]
-    fn packets_come_to_their_places_in_whatever_order() {
-        let strip = Shape::strip(const { NonZeroU32::new(3).unwrap() });
+    fn tiles_come_to_their_places_in_whatever_order() {
+        let strip = TileSize::strip(const { NonZeroU32::new(3).unwrap() });
         for shape in [strip, tile(2), tile(1), tile(100)] {
             let black = Picture::black(10, 9, false).unwrap();
             let mut expected = black.clone();
             let parts = parts(&region(), shape);
-            let assembly = Assembly::new(black, &region(), shape);
-            for (packet, part) in parts.iter().enumerate().rev() {
+            let assembly = Framebuffer::new(black, &region(), shape);
+            for (tile, part) in parts.iter().enumerate().rev() {
                 expected.put(part);
-                assembly.put(packet, part.clone());
+                assembly.put(tile, part.clone());
             }
             assert_eq!(assembly.into_picture(), expected, "{shape}");
         }
@@ -104,7 +104,7 @@ mod tests {
     fn nothing_is_written_before_its_row_is_whole() {
         let (shape, black) = (tile(4), Picture::black(10, 9, false).unwrap());
         let parts = parts(&region(), shape);
-        let assembly = Assembly::new(black.clone(), &region(), shape);
+        let assembly = Framebuffer::new(black.clone(), &region(), shape);
         // One of both rows.
         assembly.put(0, parts[0].clone());
         assembly.put(3, parts[3].clone());
@@ -125,7 +125,7 @@ mod tests {
             },
             Picture::black(2, 2, true),
         );
-        let assembly = Assembly::new(black.clone().unwrap(), &nothing, tile(4));
+        let assembly = Framebuffer::new(black.clone().unwrap(), &nothing, tile(4));
         assert_eq!(Some(assembly.into_picture()), black);
     }
 }

@@ -7,13 +7,13 @@ const LINES: usize = 128;
 /// another thread writes at every ray is fetched again at every ray: with two threads figure 21 took 7 % longer when
 /// started from some folders and not from others.
 #[derive(Debug)]
-pub(crate) struct Apart<T> {
+pub(crate) struct CachePadded<T> {
     /// The values, and as many before and behind them as fill the lines.
     all: Vec<T>,
     padding: usize,
 }
 
-impl<T: Clone> Apart<T> {
+impl<T: Clone> CachePadded<T> {
     /// So many equal values.
     pub(crate) fn new(value: T, count: usize) -> Self {
         let padding = LINES.div_ceil(size_of::<T>().max(1));
@@ -37,7 +37,7 @@ mod tests {
     #[test]
     fn the_values_are_as_many_as_asked_for_and_far_from_both_ends() {
         for count in [0, 1, 7] {
-            let mut apart = Apart::new(3_u16, count);
+            let mut apart = CachePadded::new(3_u16, count);
             assert_eq!(apart.get(), vec![3; count]);
             let (first, start) = (apart.all.as_ptr() as usize, apart.get().as_ptr() as usize);
             assert!(start - first >= LINES);

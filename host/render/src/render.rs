@@ -1,18 +1,18 @@
-//! Tracing a scene: made ready, cut into tiles, scheduled on threads.
+//! Rendering a scene: prepared, cut into tiles, scheduled on threads.
 
-use crate::assembly::Assembly;
 use crate::cost::CostMap;
-use crate::deal::{Deal, Policy};
-use crate::engine::{self, Built, Engine, Octree, Worker};
 use crate::error::Error;
+use crate::framebuffer::Framebuffer;
 use crate::interrupt::Interrupt;
-use crate::packet::Packet;
-use crate::packets::{Part, Shape};
 use crate::picture::Picture;
 use crate::progress::Progress;
+use crate::renderer::{self, Built, Renderer, TreeStats, Worker};
+use crate::schedule::Schedule;
+use crate::scheduler::{Policy, Scheduler};
 use crate::stats::Work;
-use crate::threads::{self, idle, run_packets};
-use crate::work::WorkOptions;
+use crate::threads::{self, idle, run_tiles};
+use crate::tile::Tile;
+use crate::tile::{TileBuffer, TileSize};
 use octray_core::observe::Counters;
 use octray_core::packet::Region;
 use octray_core::scalar;
@@ -22,12 +22,12 @@ use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-/// The function that all tracing of [`trace`] happens in, as Callgrind names it.
-pub const TRACING: &str = "octray_render::trace::trace_packet";
+/// The function that all tracing happens in, as Callgrind names it.
+pub const TRACING: &str = "octray_render::render::trace_tile";
 
 /// What tracing gives: the picture, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Traced {
+pub struct Rendering {
     /// The picture, with intensities if they were asked for.
     pub picture: Picture,
     /// The number format that was used.
@@ -41,7 +41,7 @@ pub struct Traced {
     /// Fixed-point results that had to be clamped.
     pub saturations: u64,
     /// The tree.
-    pub octree: Octree,
+    pub tree: TreeStats,
     /// Time to convert the scene and to build the tree.
     pub build: Duration,
     /// Time to trace.
@@ -50,48 +50,69 @@ pub struct Traced {
     pub work: Work,
 }
 
-/// Traces a scene, with intensities beside levels if they are wanted.
+/// Renders a scene on all cores.
+///
+/// # Errors
+/// [`Error::Failed`] if the scene does not fit the arithmetic or the picture does not fit into memory.
+pub fn render(scene: &Scene, settings: &RenderSettings) -> Result<Rendering, Error> {
+    render_with(
+        scene,
+        settings,
+        &Schedule::default(),
+        false,
+        &(),
+        &Interrupt::new(),
+    )
+}
+
+/// Renders a scene as scheduled, with intensities beside levels if they are wanted.
 ///
 /// # Errors
 /// [`Error::Failed`] if the scene does not fit the arithmetic, the picture does not fit into memory or the system
 /// refuses a thread; [`Error::Interrupted`] if it was.
-pub fn trace(
+pub fn render_with(
     scene: &Scene,
     settings: &RenderSettings,
-    work: &WorkOptions,
+    schedule: &Schedule,
     holds_intensities: bool,
     progress: &dyn Progress,
     interrupt: &Interrupt,
-) -> Result<Traced, Error> {
+) -> Result<Rendering, Error> {
     let begin = Instant::now();
-    let engine = engine::build(scene, settings)?;
+    let renderer = renderer::prepare(scene, settings)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let rendered = render(&*engine, work, holds_intensities, progress, interrupt)?;
+    let rendered = render_tiles(&*renderer, schedule, holds_intensities, progress, interrupt)?;
     let (picture, counters, work, saturations) = rendered;
     let times = (build, begin.elapsed());
-    let built = engine.built();
-    Ok(traced(built, picture, counters, saturations, times, work))
+    Ok(rendering(
+        renderer.built(),
+        picture,
+        counters,
+        saturations,
+        times,
+        work,
+    ))
 }
 
 /// A picture that was traced, and what it cost: counted events, saturations, the time to build and the time
 /// to trace.
-pub fn traced(
+pub fn rendering(
     built: &Built,
     picture: Picture,
     counters: Counters,
     saturations: u64,
     (build, render): (Duration, Duration),
     work: Work,
-) -> Traced {
-    Traced {
+) -> Rendering {
+    Rendering {
         picture,
         format: built.format,
         scale: built.scale,
         too_fine: built.too_fine.clone(),
         counters,
         saturations,
-        octree: built.octree,
+        tree: built.tree,
         build,
         render,
         work,
@@ -102,8 +123,8 @@ pub fn traced(
 ///
 /// # Errors
 /// [`Error::Failed`] if it does not fit into memory.
-pub fn blank(engine: &dyn Engine, holds_intensities: bool) -> Result<(Picture, Region), Error> {
-    let built = engine.built();
+pub fn blank(renderer: &dyn Renderer, holds_intensities: bool) -> Result<(Picture, Region), Error> {
+    let built = renderer.built();
     let (width, height) = built.size;
     let mut picture = Picture::black(width, height, holds_intensities)
         .ok_or_else(|| Error::Failed("the picture does not fit into memory".into()))?;
@@ -117,13 +138,15 @@ pub fn blank(engine: &dyn Engine, holds_intensities: bool) -> Result<(Picture, R
 /// # Errors
 /// [`Error::Interrupted`] if it was.
 pub fn order(
-    engine: &dyn Engine,
+    renderer: &dyn Renderer,
     policy: Policy,
     tiles: &[Region],
     interrupt: &Interrupt,
 ) -> Result<Vec<u32>, Error> {
     match policy {
-        Policy::CostOrdered => Ok(CostMap::coarse(engine, interrupt)?.dearest_first(tiles)),
+        Policy::CostOrdered => {
+            Ok(CostMap::coarse(renderer, interrupt)?.most_expensive_first(tiles))
+        }
         _ => Ok(Vec::new()),
     }
 }
@@ -134,35 +157,35 @@ pub fn order(
 /// # Errors
 /// [`Error::Failed`] if the picture does not fit into memory or the system refuses a thread;
 /// [`Error::Interrupted`] if it was.
-pub fn render(
-    engine: &dyn Engine,
-    job: &WorkOptions,
+pub fn render_tiles(
+    renderer: &dyn Renderer,
+    schedule: &Schedule,
     holds_intensities: bool,
     progress: &dyn Progress,
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
-    let (picture, region) = blank(engine, holds_intensities)?;
-    let shape: Shape = job.tile(&region);
+    let (picture, region) = blank(renderer, holds_intensities)?;
+    let shape: TileSize = schedule.tile(&region);
     let parts: Vec<_> = shape.cut(&region).collect();
-    let order = order(engine, job.policy, &parts, interrupt)?;
+    let order = order(renderer, schedule.policy, &parts, interrupt)?;
     // Those of estimates, or of other pictures, are not this one's.
     let before = scalar::saturations();
     let count = parts.len();
-    let assembly = Assembly::new(picture, &region, shape);
-    let threads = job.threads.min(at_least_one(count));
+    let assembly = Framebuffer::new(picture, &region, shape);
+    let threads = schedule.threads.min(at_least_one(count));
     progress.start(count);
-    let finished = run_packets(
-        &Deal::new(job.policy, count, threads, order),
+    let finished = run_tiles(
+        &Scheduler::new(schedule.policy, count, threads, order),
         interrupt,
         |thread| {
-            if job.pin {
+            if schedule.pin {
                 threads::pin(thread)?;
             }
-            Ok(engine.worker())
+            Ok(renderer.worker())
         },
         |worker, index| {
-            let mut part = Part::black(parts[index].clone(), holds_intensities);
-            trace_packet(&mut **worker, part.packet());
+            let mut part = TileBuffer::black(parts[index].clone(), holds_intensities);
+            trace_tile(&mut **worker, part.tile());
             assembly.put(index, part);
         },
         || progress.step(),
@@ -173,9 +196,9 @@ pub fn render(
     }
     let work = Work {
         threads: finished.len(),
-        schedule: job.policy,
-        packet: shape,
-        packets: count,
+        schedule: schedule.policy,
+        tile: shape,
+        tiles: count,
         messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
@@ -190,8 +213,8 @@ pub fn render(
 
 /// What tracing comes to, without start-up and without the picture's file: [`TRACING`].
 #[inline(never)]
-fn trace_packet(worker: &mut dyn Worker, packet: Packet<'_>) {
-    worker.trace(packet);
+fn trace_tile(worker: &mut dyn Worker, tile: Tile<'_>) {
+    worker.trace(tile);
 }
 
 fn at_least_one(count: usize) -> NonZeroUsize {

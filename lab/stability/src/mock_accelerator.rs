@@ -17,9 +17,9 @@ pub struct Seen<S> {
     pub follow: Vec<Ray<S>>,
 }
 
-struct Spy<S>(Hit<S>);
+struct MockAccelerator<S>(Hit<S>);
 
-impl<S: Scalar> Accelerator<S> for Spy<S> {
+impl<S: Scalar> Accelerator<S> for MockAccelerator<S> {
     type Stack = Seen<S>;
 
     fn nearest<O: Observer>(
@@ -93,7 +93,7 @@ pub fn leaving<S: Scalar>(
     };
     let tracer = Tracer {
         scene: &scene,
-        accelerator: &Spy(hit),
+        accelerator: &MockAccelerator(hit),
         max_depth: 1,
         cut_off: S::ZERO,
     };

@@ -1,10 +1,10 @@
-//! A sweep as a chart: for each policy a heat map of efficiency over packets and processors, the best packet for
-//! each number of processors framed; below them, for each policy, the efficiency with that packet.
+//! A sweep as a chart: for each policy a heat map of efficiency over tiles and processors, the best tile for
+//! each number of processors framed; below them, for each policy, the efficiency with that tile.
 
 use super::Run;
 use crate::canvas::{Area, Drawn, Figure, write};
-use octray_render::deal::Policy;
-use octray_render::packets::Shape;
+use octray_render::scheduler::Policy;
+use octray_render::tile::TileSize;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::num::NonZeroUsize;
@@ -29,7 +29,7 @@ pub(super) struct Chart<'a> {
     title: String,
     runs: &'a [Run],
     policies: &'a [Policy],
-    shapes: &'a [Shape],
+    shapes: &'a [TileSize],
     processors: &'a [NonZeroUsize],
 }
 
@@ -39,7 +39,7 @@ impl<'a> Chart<'a> {
         title: String,
         runs: &'a [Run],
         policies: &'a [Policy],
-        shapes: &'a [Shape],
+        shapes: &'a [TileSize],
         processors: &'a [NonZeroUsize],
     ) -> Self {
         Self {
@@ -51,10 +51,10 @@ impl<'a> Chart<'a> {
         }
     }
 
-    fn run(&self, policy: Policy, shape: Shape, processors: NonZeroUsize) -> Option<&'a Run> {
+    fn run(&self, policy: Policy, shape: TileSize, processors: NonZeroUsize) -> Option<&'a Run> {
         let key = (policy, shape, processors);
         let mut runs = self.runs.iter();
-        runs.find(|run| (run.policy, run.packet, run.processors) == key)
+        runs.find(|run| (run.policy, run.tile, run.processors) == key)
     }
 
     fn best(&self, policy: Policy, processors: NonZeroUsize) -> Option<&'a Run> {
@@ -91,7 +91,7 @@ impl Figure for Chart<'_> {
 
     fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B> {
         write(area, &self.title, (MARGIN, MARGIN), 18, HPos::Left)?;
-        let note = "Efficiency in percent: speed-up by processors. Framed: the best packet for each number of processors.";
+        let note = "Efficiency in percent: speed-up by processors. Framed: the best tile for each number of processors.";
         write(area, note, (MARGIN, MARGIN + 21), 14, HPos::Left)?;
         let ((width, height), (across, down)) = (self.panel(), self.grid());
         for (i, policy) in (0..).zip(self.policies) {
@@ -142,7 +142,7 @@ impl Chart<'_> {
                 // Viridis is light in its upper half.
                 let ink = if share > 0.55 { BLACK_LINE } else { WHITE };
                 number(area, &text, (middle, y + DROP), ink)?;
-                if best.is_some_and(|best| best.packet == *shape) {
+                if best.is_some_and(|best| best.tile == *shape) {
                     let inner = [(x + 1, y + 1), (x + CELL.0 - 2, y + CELL.1 - 2)];
                     area.draw(&Rectangle::new(corners, BLACK_LINE))?;
                     area.draw(&Rectangle::new(inner, RED.stroke_width(2)))?;
@@ -157,7 +157,7 @@ impl Chart<'_> {
         let (left, top) = (LEFT, top + TITLE);
         write(
             area,
-            "Efficiency with the best packet",
+            "Efficiency with the best tile",
             (left, top - 20),
             15,
             HPos::Left,
@@ -224,18 +224,18 @@ mod tests {
 
     #[test]
     fn the_chart_tells_every_efficiency_and_names_every_axis() {
-        let shapes = [3, 5].map(|rows| Shape::strip(NonZeroU32::new(rows).unwrap()));
+        let shapes = [3, 5].map(|rows| TileSize::strip(NonZeroU32::new(rows).unwrap()));
         let processors = [2, 64].map(|count| NonZeroUsize::new(count).unwrap());
         let policies = [Policy::Dynamic, Policy::Static];
         let mut runs = Vec::new();
         for policy in policies {
-            for packet in shapes {
+            for tile in shapes {
                 for processors in processors {
                     let efficiency = 0.11 + 0.1 * runs.len() as f64;
                     runs.push(Run {
                         policy,
-                        packet,
-                        packets: 1,
+                        tile,
+                        tiles: 1,
                         processors,
                         outcome: Outcome {
                             time: 1.0,
@@ -255,6 +255,6 @@ mod tests {
         }
         assert_eq!(svg, canvas::svg(&chart).unwrap());
         let best = chart.best(Policy::Static, processors[0]).unwrap();
-        assert_eq!(best.packet, shapes[1]);
+        assert_eq!(best.tile, shapes[1]);
     }
 }

@@ -1,31 +1,31 @@
 //! How the work on a picture is shared among threads.
 
-use crate::deal::Policy;
-use crate::packets::Shape;
+use crate::scheduler::Policy;
+use crate::tile::TileSize;
 use octray_core::packet::Region;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::thread::available_parallelism;
 
 /// How the work is shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WorkOptions {
+pub struct Schedule {
     /// How many threads trace.
     pub threads: NonZeroUsize,
     /// Which thread gets which tile.
     pub policy: Policy,
-    /// How large tiles are, rows and columns even with four pixels per ray; [`WorkOptions::tile`] if `None`.
-    pub packet: Option<Shape>,
+    /// How large tiles are, rows and columns even with four pixels per ray; [`Schedule::tile`] if `None`.
+    pub tile: Option<TileSize>,
     /// Whether each thread stays on one core.
     pub pin: bool,
 }
 
 /// One thread for each core, dynamic.
-impl Default for WorkOptions {
+impl Default for Schedule {
     fn default() -> Self {
         Self {
             threads: available_parallelism().unwrap_or(NonZeroUsize::MIN),
             policy: Policy::Dynamic,
-            packet: None,
+            tile: None,
             pin: false,
         }
     }
@@ -36,18 +36,18 @@ impl Default for WorkOptions {
 /// takes fewer instructions than 16 x 16 pixels.
 const SIDES: [(u32, usize); 3] = [(16, 64), (8, 24), (4, 0)];
 
-impl WorkOptions {
+impl Schedule {
     /// The tiles of a picture where nothing else is asked for: squares of 16 x 16 pixels, unless there are many threads.
-    pub const TILE: Shape = Shape::tile(NonZeroU32::new(SIDES[0].0).unwrap());
+    pub const TILE: TileSize = TileSize::tile(NonZeroU32::new(SIDES[0].0).unwrap());
 
     /// The size of tiles: the one that was asked for, else squares of 16, 8 or 4 pixels, so that each thread gets a
     /// good many.
-    pub fn tile(&self, region: &Region) -> Shape {
+    pub fn tile(&self, region: &Region) -> TileSize {
         let fits = |(side, tiles): (u32, usize)| {
-            let shape = Shape::tile(NonZeroU32::new(side)?);
+            let shape = TileSize::tile(NonZeroU32::new(side)?);
             (shape.count(region) / self.threads >= tiles).then_some(shape)
         };
-        match self.packet {
+        match self.tile {
             Some(shape) => shape,
             None if self.threads.get() == 1 => Self::TILE,
             None => SIDES.into_iter().find_map(fits).unwrap_or(Self::TILE),
@@ -62,9 +62,9 @@ mod tests {
     #[test]
     fn every_thread_gets_a_good_many_tiles() {
         let side = |threads, size| {
-            let work = WorkOptions {
+            let work = Schedule {
                 threads: NonZeroUsize::new(threads).unwrap(),
-                ..WorkOptions::default()
+                ..Schedule::default()
             };
             let region = Region {
                 columns: 0..size,
@@ -80,10 +80,10 @@ mod tests {
 
     #[test]
     fn what_is_asked_for_is_taken() {
-        let strip = Shape::strip(NonZeroU32::MIN);
-        let work = WorkOptions {
-            packet: Some(strip),
-            ..WorkOptions::default()
+        let strip = TileSize::strip(NonZeroU32::MIN);
+        let work = Schedule {
+            tile: Some(strip),
+            ..Schedule::default()
         };
         let region = Region {
             columns: 0..9,
