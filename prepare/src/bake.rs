@@ -50,6 +50,20 @@ pub struct BakeOptions<'a> {
     pub rays: Option<usize>,
 }
 
+impl<'a> BakeOptions<'a> {
+    /// The scene called `name`, rendered with these settings: a tree that is built beforehand, for a target on which hit
+    /// tests cost little.
+    pub const fn new(name: &'a str, settings: RenderSettings) -> Self {
+        Self {
+            name,
+            settings,
+            on_device: false,
+            target: None,
+            rays: None,
+        }
+    }
+}
+
 /// A baked scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Baked {

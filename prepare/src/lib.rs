@@ -24,3 +24,8 @@ pub mod tree;
 
 pub use format::{Arith, Format};
 pub use settings::{FirmwareTree, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -58,3 +58,13 @@ pub use octray_prepare::{Arith, Format, PixelsPerRay, RenderSettings, TreeKind, 
 pub use picture::Picture;
 pub use render::{Rendering, render};
 pub use schedule::Schedule;
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+/// So are those of the project's.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct ProjectReadme;
