@@ -96,7 +96,7 @@ fn without_flags_a_png_of_the_scenes_name_and_a_summary() {
     let summary = done(folder.path(), "render a.scene");
     assert_eq!(names(folder.path()), ["a.png", "a.scene"]);
     assert_eq!(picture(folder.path(), "a.png").size(), (80, 60));
-    for word in ["f32", "2 lights", "tight", "80 x 60", "rays"] {
+    for word in ["f32", "2 lights", "bvh8", "80 x 60", "rays"] {
         assert!(summary.contains(word), "no {word:?} in\n{summary}");
     }
     assert_eq!(done(folder.path(), "render a.scene --stats none"), "");
@@ -116,13 +116,12 @@ fn the_json_object_has_the_documented_fields() {
         "tests",
         "hits",
         "saturations",
-        "octree",
+        "tree",
         "seconds",
         "threads",
         "schedule",
         "tile",
         "tiles",
-        "forecast",
         "messages",
         "idle",
         "hash",
@@ -143,12 +142,12 @@ fn the_json_object_has_the_documented_fields() {
         (&2.into(), &"static".into())
     );
     assert_eq!(
-        (&stats["saturations"], &stats["octree"]["unsplit"]),
+        (&stats["saturations"], &stats["tree"]["unsplit"]),
         (&0.into(), &0.into())
     );
-    assert_eq!(stats["octree"]["kind"], "tight");
+    assert_eq!(stats["tree"]["kind"], "bvh8");
     for field in ["nodes", "links", "depth"] {
-        assert!(stats["octree"][field].as_u64().unwrap() > 0, "{field}");
+        assert!(stats["tree"][field].as_u64().unwrap() > 0, "{field}");
     }
     for field in ["parse", "build", "render"] {
         assert!(stats["seconds"][field].as_f64().unwrap() >= 0.0, "{field}");
@@ -164,27 +163,16 @@ fn the_json_object_has_the_documented_fields() {
 }
 
 #[test]
-fn the_chosen_packing_is_explained() {
+fn tiles_are_squares_and_smaller_for_many_threads() {
     let folder = folder();
-    // In a large picture a probe takes little.
-    let chosen = stats(folder.path(), "--threads 2 --size 640x480");
-    let forecast = |field: &str| chosen["forecast"][field].as_f64().unwrap();
-    assert!(forecast("speed_up") > 1.0 && forecast("speed_up") <= 2.0);
-    assert!(forecast("fixed") > 1.0 && forecast("fixed") <= 2.0);
-    assert!(forecast("probed") > 0.0 && forecast("simulated") > 0.0);
-    let explained = done(folder.path(), "render a.scene --threads 2 --size 640x480");
-    assert!(
-        explained.contains("\npacking       speed-up "),
-        "{explained}"
-    );
-    let explicit = stats(
-        folder.path(),
-        "--threads 2 --size 640x480 --schedule static --tile-rows 4",
-    );
-    assert_eq!(explicit["forecast"], Value::Null);
-    let small = stats(folder.path(), "--threads 2");
-    assert_eq!(small["forecast"], Value::Null);
-    assert_eq!(explicit["hash"], chosen["hash"]);
+    let tile = |line: &str| {
+        let tile = stats(folder.path(), line)["tile"].clone();
+        (tile["rows"].as_u64().unwrap(), tile["columns"].as_u64())
+    };
+    assert_eq!(tile("--threads 1"), (16, Some(16)));
+    assert_eq!(tile("--threads 2 --size 640x480"), (16, Some(16)));
+    assert_eq!(tile("--threads 64"), (4, Some(4)));
+    assert_eq!(tile("--threads 2 --tile-rows 4"), (4, None));
 }
 
 #[test]
