@@ -21,7 +21,10 @@ fn check(page: &str) {
         return;
     };
     let text = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{text}\nafter a change: docs/refresh {page}");
+    assert!(
+        output.status.success(),
+        "{text}\nafter a change: docs/refresh {page}"
+    );
 }
 
 macro_rules! pages {

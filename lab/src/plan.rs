@@ -10,6 +10,7 @@
 pub mod accuracy;
 pub mod choice;
 pub mod comb;
+pub mod decision;
 pub mod events;
 pub mod fit;
 pub mod job;

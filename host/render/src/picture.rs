@@ -1,6 +1,7 @@
 //! Pictures: 8-bit levels, float intensities where asked for, and the files that hold them.
 
 mod format;
+mod malformed;
 mod netpbm;
 mod palette;
 mod pfm;
@@ -8,7 +9,8 @@ mod png;
 mod ppm;
 mod ras;
 
-pub use format::{Format, RasDepth, Target, read};
+pub use format::{Format, Target, read};
+pub use ras::RasDepth;
 
 use crate::tile::TileBuffer;
 use crate::tile::{Intensity, Level};

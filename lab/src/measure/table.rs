@@ -1,13 +1,12 @@
 //! The results as a table to read.
 
-use super::ratio;
 use super::row::{Cost, Row};
 use comfy_table::{CellAlignment, Table, presets};
 use octray_render::counts::thousands;
 
-/// The table, and the costliest functions of each row.
-pub fn text(rows: &[Row], functions: usize) -> String {
-    let mut text = frames(rows) + &ratio::text(rows);
+/// The table, what follows it, and the costliest functions of each row.
+pub fn text(rows: &[Row], below: &str, functions: usize) -> String {
+    let mut text = frames(rows) + below;
     for row in rows.iter().filter(|_| functions > 0) {
         let Some(all) = row.instructions() else {
             continue;

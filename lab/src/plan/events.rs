@@ -1,6 +1,5 @@
 //! What happens while a frame is traced, counted on the host: what instructions are predicted from.
 
-use super::model::ROWS;
 use octray_core::observe::{Counters, RayKind, Searches};
 use octray_prepare::plan::Plan;
 use octray_render::error::Error;
@@ -13,6 +12,9 @@ use octray_render::scheduler::Policy;
 use octray_render::tile::TileSize;
 use octray_scenes::model::Scene;
 use std::num::NonZeroU32;
+
+/// Rows of the strip that firmware renders at a time.
+pub const ROWS: usize = 4;
 
 /// How many events of a search there are.
 pub const OF_SEARCH: usize = 17;

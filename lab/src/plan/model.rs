@@ -3,7 +3,7 @@
 //!
 //! `cargo bench -p octray --bench plan` measures frames on emulated boards and fits the weights.
 
-use super::events::{Events, NAMES, OF_REST, OF_SEARCH};
+use super::events::{Events, NAMES, OF_REST, OF_SEARCH, ROWS};
 use octray_core::needs::{self, Needs};
 use octray_core::octree::Options;
 use octray_core::trace::Pending;
@@ -54,9 +54,6 @@ pub struct Parts {
     /// What blocked each light last.
     pub blockers: usize,
 }
-
-/// Rows of the firmware's strip.
-pub const ROWS: usize = 4;
 
 impl Parts {
     /// Of a baked plan with so many lights.

@@ -2,9 +2,8 @@
 
 use super::accuracy::Accuracy;
 use super::choice::{Candidate, cheapest};
-use super::events::Events;
-use super::model::ROWS;
-use super::report::{Cheaper, Decision, decibels};
+use super::decision::{Cheaper, Decision, decibels};
+use super::events::{Events, ROWS};
 use octray_core::needs;
 use octray_prepare::PixelsPerRay;
 use octray_prepare::TreeKind;

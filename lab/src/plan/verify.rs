@@ -1,7 +1,7 @@
 //! A plan put to the test: the firmware built from it, and run on the emulated board.
 
+use super::decision::Cost;
 use super::events::Probe;
-use super::report::Cost;
 use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
 use crate::measure::job::Goal;

@@ -1,6 +1,6 @@
 //! Portable float map: 32-bit floats, the bottom row first, the scale's sign telling the byte order.
 
-use super::format::malformed;
+use super::malformed::malformed;
 use super::{Picture, netpbm};
 use crate::tile::Intensity;
 use std::io::{self, BufRead, Write};
