@@ -14,10 +14,10 @@ pub struct GenerateArgs {
     /// What the scene shows
     #[arg(value_parser = kind())]
     kind: Kind,
-    /// How many objects, the ground included; terrains and trees may have a few less
+    /// Number of objects, including the ground; terrains and trees may have a few fewer
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=MOST))]
     count: u32,
-    /// Another seed, another scene of the same kind
+    /// Seed of the random numbers; another seed gives another scene of the same kind
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// The scene file [default: standard output]
@@ -25,11 +25,11 @@ pub struct GenerateArgs {
     output: Option<PathBuf>,
 }
 
-/// As many objects as fit comfortably into memory.
+/// The largest number of objects that fits comfortably into memory.
 const MOST: i64 = 10_000_000;
 
 impl GenerateArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     pub fn job(self) -> GenerateJob {
         GenerateJob {
             spec: Spec {
@@ -56,6 +56,6 @@ fn description(kind: Kind) -> &'static str {
         Kind::Lattice => "A cube of spheres joined by rods",
         Kind::Terrain => "Fractal mountains of triangles around a lake",
         Kind::Tree => "A tree of cones and spheres",
-        Kind::Soup => "Shapes of all kinds strewn at random",
+        Kind::Soup => "Shapes of all kinds placed at random",
     }
 }
