@@ -13,7 +13,7 @@ use octray_prepare::plan::Plan;
 use octray_prepare::{Format, PixelsPerRay};
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_scenes::model::Scene;
 use snapbox::cmd::cargo_bin;
 use std::fs;
@@ -38,7 +38,7 @@ fn scenes() -> Vec<(String, Scene)> {
         let path = root().join("scenes").join(&name).with_extension("scene");
         (name, octray_scenes::read(&path).unwrap())
     });
-    let generated = Kind::ALL.into_iter().map(|kind| {
+    let generated = SceneKind::ALL.into_iter().map(|kind| {
         let scene = generate(Spec { kind, objects: 30 }, 1);
         (kind.name().to_owned(), scene)
     });
@@ -151,7 +151,7 @@ fn predictions_hold_on_emulated_boards() {
     let folder = tempfile::tempdir().unwrap();
     let soup = folder.path().join("soup.scene");
     let mut file = fs::File::create(&soup).unwrap();
-    let (kind, objects) = (Kind::Soup, 30);
+    let (kind, objects) = (SceneKind::Soup, 30);
     octray_scenes::write(&generate(Spec { kind, objects }, 1), &mut file).unwrap();
     let soup = soup.display();
     // Polygons with many edges, a different one than the weights were fitted to.

@@ -6,7 +6,7 @@ use octray_core::vec3::Vec3;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, quantise};
 use octray_prepare::tree::{Growth, OwnedCompactBvh8};
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 
 const VIEW: RenderSettings = RenderSettings {
     size: Some((64, 48)),
@@ -15,7 +15,7 @@ const VIEW: RenderSettings = RenderSettings {
 };
 
 fn grown(objects: usize) -> (Prepared<f32>, OwnedCompactBvh8) {
-    let kind = Kind::Soup;
+    let kind = SceneKind::Soup;
     let mut prepared = quantise::<f32>(&generate(Spec { kind, objects }, 3), &VIEW).unwrap();
     let options = Options {
         depth: 24,

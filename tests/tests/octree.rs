@@ -15,7 +15,7 @@ use octray_prepare::settings;
 use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
 use octray_prepare::{Arith, TreeKind};
 use octray_render::stats::Rays;
-use octray_scenes::generate::{Kind, Spec};
+use octray_scenes::generate::{SceneKind, Spec};
 use octray_tests::shot::{self, Shot, scene_files};
 use octray_tests::strew;
 use std::collections::BTreeMap;
@@ -193,7 +193,7 @@ fn extreme<S: Quantize>(rng: &mut Rng) -> S {
 fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
     let scene = if seed % 8 == 7 {
         let spec = Spec {
-            kind: Kind::Soup,
+            kind: SceneKind::Soup,
             objects: 10 + seed as usize % 90,
         };
         octray_scenes::generate(spec, seed)

@@ -1,4 +1,4 @@
-//! Tokens: what stands between white space, with its place in the source.
+//! Tokens: texts between white space, with their places in the source.
 
 /// A range of bytes of the source; always on character boundaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,7 +9,7 @@ pub struct Span {
     pub end: usize,
 }
 
-/// The words a scene file is made of.
+/// The words of a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keyword {
     /// `v`
@@ -47,7 +47,7 @@ pub enum Keyword {
 }
 
 impl Keyword {
-    /// As it is written.
+    /// Returns the keyword as it is written.
     pub fn text(self) -> &'static str {
         match self {
             Self::Viewpoint => "v",
@@ -69,7 +69,7 @@ impl Keyword {
         }
     }
 
-    /// What must follow it, in words.
+    /// Describes what must follow the keyword.
     pub fn wants(self) -> &'static str {
         match self {
             Self::Viewpoint => "3 numbers (x y z), or none, then `from`, `at`, `up` and `angle`",
@@ -124,11 +124,11 @@ pub(crate) struct Token<'s> {
     pub(crate) text: &'s str,
     /// Its first byte in the source.
     pub(crate) start: usize,
-    /// Whether a line break, or nothing at all, stands before it. It only shapes error messages.
+    /// Whether it is the first token of its line. This affects only error messages.
     pub(crate) opens_line: bool,
 }
 
-/// What a token means.
+/// The meaning of a token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Lexeme {
     Keyword(Keyword),
@@ -136,11 +136,11 @@ pub(crate) enum Lexeme {
     Number(f64),
     /// `nan`, `inf`, or a number beyond `f64`.
     NotFinite,
-    /// Begins like a number but is none.
+    /// Begins like a number but is not one.
     Malformed,
     /// Any other word.
     Word,
-    /// Holds a control character: this is no text file.
+    /// Contains a control character: this is not a text file.
     Binary,
 }
 
@@ -167,7 +167,7 @@ impl Token<'_> {
     }
 }
 
-/// Cuts a source into tokens. It keeps no more than its place.
+/// Splits a source into tokens. Its only state is its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Lexer<'s> {
     source: &'s str,
@@ -231,7 +231,7 @@ pub(super) mod tests {
         TOKENS.set(TOKENS.get() + 1);
     }
 
-    /// How many tokens this thread asked for while `run` ran.
+    /// Returns how many tokens this thread requested during `run`.
     pub(in crate::parse) fn tokens_read(run: impl FnOnce()) -> usize {
         let before = TOKENS.get();
         run();
