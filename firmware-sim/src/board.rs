@@ -1,5 +1,4 @@
-//! What is the same on every board: the frame, its marks for whoever counts instructions, the
-//! report and the exit.
+//! The part that all boards share: the frame with the marks for counting instructions, the report and the exit.
 
 #[cfg(target_arch = "arm")]
 mod cortex_m;
@@ -23,7 +22,7 @@ use octray_embedded::hash::HashPanel;
 use octray_embedded::render::{ROWS, render};
 use semihosting::process::exit;
 
-/// Renders, tells, exits.
+/// Renders, reports, exits.
 fn run() -> ! {
     stack::paint();
     let hash = frame();
@@ -39,13 +38,13 @@ fn run() -> ! {
     exit(if deepest.is_some() { 0 } else { 103 })
 }
 
-/// Renders the picture with the tree that was baked; its hash.
+/// Renders the picture with the baked tree and returns its hash.
 #[cfg(not(octray_device_tree))]
 fn frame() -> u64 {
     trace(&crate::baked::TREE)
 }
 
-/// Builds the tree in its own memory and renders the picture; its hash. 0 if the tree has no room.
+/// Builds the tree in its own memory, renders the picture and returns its hash; 0 if the tree does not fit.
 #[cfg(octray_device_tree)]
 fn frame() -> u64 {
     use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
@@ -53,7 +52,7 @@ fn frame() -> u64 {
 
     let mut words = [0; TREE_WORDS];
     let mut links = [ObjectRef::default(); OBJECTS];
-    // A call of its own, so that its boxes are gone when the picture is rendered.
+    // A function of its own, so that its boxes are freed before the picture is rendered.
     #[inline(never)]
     fn build<'a>(words: &'a mut [u32], links: &'a mut [ObjectRef]) -> Option<Packed<'a>> {
         let mut boxes = [Bounds::default(); OBJECTS];
@@ -64,7 +63,7 @@ fn frame() -> u64 {
     build(&mut words, &mut links).map_or(0, |tree| trace(&tree))
 }
 
-/// Renders the picture; its hash.
+/// Renders the picture and returns its hash.
 #[inline(never)]
 fn trace<A: Accelerator<S, NEEDS>>(tree: &A) -> u64 {
     let tracer = Tracer {
@@ -95,7 +94,7 @@ fn trace<A: Accelerator<S, NEEDS>>(tree: &A) -> u64 {
     panel.0.hash()
 }
 
-/// The panel, with whatever it does left out of what is measured.
+/// The panel; its instructions are excluded from the count.
 struct Panel(HashPanel);
 
 impl OriginDimensions for Panel {

@@ -1,4 +1,4 @@
-//! The number formats: the one list of them, and the way from a name to a type.
+//! The list of number formats, and the conversion of a name into a type.
 
 use crate::bake::Literal;
 use crate::choice::Choice;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize, de};
 use std::fmt;
 use strum::{EnumMessage, IntoStaticStr, VariantArray};
 
-/// A number format that a picture is traced in.
+/// A number format in which pictures are traced.
 #[derive(
     Clone,
     Copy,
@@ -32,9 +32,9 @@ pub enum Format {
     F32,
     /// 32-bit floats with approximate roots and reciprocals.
     Approx0,
-    /// The same, made better by one Newton step.
+    /// The same, improved by one Newton step.
     Approx1,
-    /// The same, made better by two Newton steps.
+    /// The same, improved by two Newton steps.
     Approx2,
     /// 32-bit fixed point with 8 fraction bits.
     I24F8,
@@ -62,7 +62,7 @@ pub enum Format {
     I32F32,
 }
 
-/// What kind of numbers a format has.
+/// The kind of numbers of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Floats.
@@ -75,17 +75,17 @@ pub enum Family {
     Fixed64,
 }
 
-/// Something to be done in a format that is chosen at run time.
+/// A task that runs in a format chosen at run time.
 pub trait InFormat {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Does it in format `S`.
+    /// Runs the task in format `S`.
     fn run<S: Literal>(self) -> Self::Output;
 }
 
 impl Format {
-    /// Does something in this format. Only here do names become types.
+    /// Runs a task in this format. This is the only place where names become types.
     pub fn dispatch<T: InFormat>(self, task: T) -> T::Output {
         match self {
             Self::F64 => task.run::<f64>(),
@@ -108,7 +108,7 @@ impl Format {
         }
     }
 
-    /// The 32-bit fixed-point formats of [`Arith::STANDARD`], the finest first: what `auto` chooses from.
+    /// The 32-bit fixed-point formats of [`Arith::STANDARD`], the finest first: `auto` chooses one of them.
     pub const AUTOMATIC: [Self; 6] = [
         Self::I4F28,
         Self::I8F24,
@@ -118,12 +118,12 @@ impl Format {
         Self::I24F8,
     ];
 
-    /// Its name on the command line, in files and in statistics.
+    /// Returns its name on the command line, in files and in statistics.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// What kind of numbers it has.
+    /// Returns the kind of its numbers.
     pub const fn family(self) -> Family {
         match self {
             Self::F64 | Self::F32 => Family::Float,
@@ -133,7 +133,7 @@ impl Format {
         }
     }
 
-    /// Bits behind the point, for fixed-point formats.
+    /// Returns the number of fraction bits of a fixed-point format.
     pub fn fraction_bits(self) -> Option<u32> {
         struct Bits;
         impl InFormat for Bits {
@@ -152,7 +152,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// The arithmetic that is asked for: a format, or the one that suits the scene.
+/// The requested arithmetic: a format, or the one that suits the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Arith {
     /// The finest format of [`Format::AUTOMATIC`] that the scene cannot overflow.
@@ -187,7 +187,7 @@ impl Arith {
     /// [`Format::I32F32`].
     pub const I32F32: Self = Self::In(Format::I32F32);
 
-    /// The formats that charts and reports compare: one of each step of four fraction bits.
+    /// The formats that charts and reports compare; of 32-bit fixed point, one in four fraction bits.
     pub const STANDARD: [Self; 12] = [
         Self::F64,
         Self::F32,
@@ -203,8 +203,9 @@ impl Arith {
         Self::I32F32,
     ];
 
-    /// The format that a scene is traced in, with at most `max_depth` bounces. [`Arith::Auto`] becomes the finest
-    /// format of [`Format::AUTOMATIC`] that the scene cannot overflow; the last one if there is none.
+    /// Returns the format in which a scene is traced with at most `max_depth` bounces. For [`Arith::Auto`] it is the
+    /// finest format of [`Format::AUTOMATIC`] that the scene cannot overflow, or the last one if every format could
+    /// overflow.
     pub fn format(self, scene: &Scene, max_depth: u32) -> Format {
         struct Fits<'a>(&'a Scene, u32);
         impl InFormat for Fits<'_> {
@@ -221,7 +222,7 @@ impl Arith {
         }
     }
 
-    /// Its name on the command line, in files and in statistics.
+    /// Returns its name on the command line, in files and in statistics.
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -229,7 +230,7 @@ impl Arith {
         }
     }
 
-    /// Its name, and the number format that was used where that is another: `auto: i8f24`.
+    /// Returns its name, with the format that was used if it differs: `auto: i8f24`.
     pub fn with_format(self, used: Option<Format>) -> String {
         match used {
             Some(format) if Self::In(format) != self => format!("{}: {format}", self.name()),
@@ -272,14 +273,14 @@ impl Choice for Arith {
     }
 }
 
-/// By name.
+/// Serialises by name.
 impl Serialize for Arith {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
     }
 }
 
-/// By name.
+/// Deserialises by name.
 impl<'de> Deserialize<'de> for Arith {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = String::deserialize(deserializer)?;
@@ -293,7 +294,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_format_has_the_name_that_its_type_has() {
+    fn a_format_has_the_name_of_its_type() {
         struct Name;
         impl InFormat for Name {
             type Output = &'static str;

@@ -1,17 +1,17 @@
-//! From a parsed scene to what octray traces.
+//! Prepares a parsed scene for tracing.
 //!
 //! The modules, in the order of the data:
 //!
 //! | module | does |
 //! | --- | --- |
-//! | [`settings`] | what there is to choose, with its defaults: [`RenderSettings`] |
-//! | [`mod@format`] | the one list of number formats, and the way from a name to a type |
-//! | [`mod@quantise`] | a scene in the numbers of one format, placed and scaled |
-//! | [`tree`] | trees of a quantised scene, in memory of their own |
-//! | [`target`] | what a target's core is good at, as far as it decides which tree is best |
-//! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
-//! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
-//! | [`choice`] | names of what is chosen from a list |
+//! | [`settings`] | the settings of a rendering, with their defaults: [`RenderSettings`] |
+//! | [`mod@format`] | the list of number formats, and the conversion of a name into a type |
+//! | [`mod@quantise`] | places and scales a scene in the numbers of one format |
+//! | [`tree`] | builds trees of a quantised scene in heap memory |
+//! | [`target`] | the cost of hit tests on a target, which decides how trees are built |
+//! | [`plan`] | the settings that are chosen before a scene is baked, and their file |
+//! | [`mod@bake`] | writes a scene, its tree and its picture as Rust source, for targets without a file system |
+//! | [`choice`] | names of the values of fixed lists |
 
 pub mod bake;
 pub mod choice;

@@ -1,4 +1,4 @@
-//! What formats are too coarse for, and how that is told.
+//! What formats are too coarse for, and how it is reported.
 
 use octray_core::scalar::{Approx, Fixed, Quantize};
 use octray_prepare::RenderSettings;
@@ -71,7 +71,7 @@ fn what_is_too_fine_is_named() {
     let deep = parse(&format!("v 0 0 -9 resolution 4 4 {mirror} s 0 0 0 1")).unwrap();
     assert_eq!(
         told_at_depth::<Fixed<8, true>>(&deep, (1, 1), 400).unwrap(),
-        "i24f8 resolves 1/512, but what each of 122 rays by way of surface 1 may err by is 1/3889"
+        "i24f8 resolves 1/512, but the error allowed to each of 122 rays via surface 1 is 1/3889"
     );
     assert_eq!(told_at_depth::<Fixed<8, true>>(&deep, (1, 1), 8), None);
     let beside = scene("v 0 0 -9 view parallel", "s 0 0 0 9");

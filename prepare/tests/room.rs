@@ -1,4 +1,4 @@
-//! How much room the walk of a packed tree takes.
+//! The traversal stack that a compact BVH needs.
 
 use octray_core::octree::{Accelerator, Options, Packed};
 use octray_core::trace::{Pending, Tracer, Workspace};
@@ -49,7 +49,7 @@ fn render<A: Accelerator<f32>>(prepared: &Prepared<f32>, tree: &A) -> Vec<Vec3<f
 }
 
 #[test]
-fn room_for_the_nodes_that_can_wait_is_enough() {
+fn a_stack_for_the_computed_number_of_nodes_is_enough() {
     const ROOM: usize = 16;
     let (prepared, tree) = grown(60);
     assert_eq!(tree.tree().waiting(), ROOM);
@@ -62,7 +62,7 @@ fn room_for_the_nodes_that_can_wait_is_enough() {
 }
 
 #[test]
-fn without_nodes_below_the_root_only_its_children_wait() {
+fn without_inner_nodes_only_the_children_of_the_root_wait() {
     let (_, tree) = grown(8);
     let children = tree.words[1] >> 28;
     assert_eq!(tree.words.len(), 2 + 2 * children as usize);

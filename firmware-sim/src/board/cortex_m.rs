@@ -1,4 +1,4 @@
-//! Cortex-M: start-up by cortex-m-rt, which also switches the floating-point unit on.
+//! Cortex-M: cortex-m-rt starts the program and enables the floating-point unit.
 
 use cortex_m_rt::{ExceptionFrame, entry, exception};
 

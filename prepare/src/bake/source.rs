@@ -1,4 +1,4 @@
-//! The tables as Rust source.
+//! Writes the tables as Rust source.
 
 use super::{BakeOptions, Literal};
 use crate::quantise::Prepared;
@@ -14,7 +14,7 @@ use octray_core::shape::{
 use octray_core::vec3::{Axis, Vec3};
 use std::fmt::{self, Display, Formatter};
 
-/// All that is written.
+/// The contents of the source.
 pub(super) struct Tables<'a, S: Literal> {
     pub(super) prepared: &'a Prepared<S>,
     pub(super) tree: Tree,
@@ -25,13 +25,13 @@ pub(super) struct Tables<'a, S: Literal> {
     pub(super) options: &'a BakeOptions<'a>,
 }
 
-/// What finds the objects.
+/// The accelerator.
 pub(super) enum Tree {
-    /// A list of all.
+    /// None: a list of all objects.
     None,
-    /// The packed tree's nodes, its tick, and how many nodes can wait while it is walked.
+    /// The compact BVH's nodes, its tick, and the maximum number of nodes on the traversal stack.
     Packed(Vec<u32>, u32, usize),
-    /// The number of words that a tree grown like this takes.
+    /// The device builds the tree: its size in words, and its options.
     Device(usize, octree::Options),
 }
 
@@ -43,7 +43,7 @@ impl Tree {
         }
     }
 
-    /// Nodes that can wait while it is walked.
+    /// Returns the maximum number of nodes on the traversal stack.
     pub(super) fn nodes(&self) -> usize {
         match self {
             Self::None => 0,
@@ -52,7 +52,7 @@ impl Tree {
         }
     }
 
-    /// Words that it takes, here or on the device.
+    /// Returns the words of the tree, here or on the device.
     pub(super) fn room(&self) -> usize {
         match self {
             Self::Device(words, _) => *words,
@@ -62,7 +62,7 @@ impl Tree {
 }
 
 impl<S: Literal> Tables<'_, S> {
-    /// Bytes of all arrays.
+    /// Returns the bytes of all arrays.
     pub(super) fn bytes(&self) -> usize {
         let scene = &self.prepared.scene;
         size_of_val(&*scene.spheres)
@@ -82,7 +82,7 @@ impl<S: Literal> Tables<'_, S> {
             + size_of_val(self.tree.words())
     }
 
-    /// The links, unless the device makes its own.
+    /// Returns the links, unless the device makes its own.
     fn baked_links(&self) -> &[ObjectRef] {
         match self.tree {
             Tree::Device(..) => &[],
