@@ -2,8 +2,8 @@
 
 use octray_stability::method::About;
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{Cause, ErrorStats, State};
 use octray_stability::survey::{Outcome, Survey};
-use octray_stability::tally::{Cause, State, Tally};
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
@@ -72,7 +72,7 @@ fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {
     lines.flat_map(move |(f, a)| {
         let cells = about.values.iter().zip(outcome.row(f, a));
         cells.map(move |(&value, cell)| {
-            let Tally {
+            let ErrorStats {
                 cases,
                 false_hits,
                 false_misses,
@@ -80,7 +80,7 @@ fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {
                 saturations,
                 error,
                 angle,
-            } = cell.tally;
+            } = cell.errors;
             Row {
                 method: about.name,
                 form: about.forms[f].name,

@@ -6,8 +6,8 @@
 use super::table::number;
 use crate::canvas::{Area, Drawn, Figure, write};
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{Cause, State};
 use octray_stability::survey::{Cell, Outcome};
-use octray_stability::tally::{Cause, State};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 

@@ -3,8 +3,8 @@
 use super::table::{admitted, limit};
 use comfy_table::{CellAlignment, Table, presets};
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::State;
 use octray_stability::survey::Survey;
-use octray_stability::tally::State;
 
 /// A line for each method and form: to which value it holds, and beyond which it breaks, in some
 /// arithmetics by their numbers; for what octray ships also to which value it is admitted.

@@ -3,8 +3,8 @@
 use comfy_table::{CellAlignment, Table, presets};
 use octray_stability::method::About;
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{State, StateLimit};
 use octray_stability::survey::Outcome;
-use octray_stability::tally::{Bound, State};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
@@ -46,17 +46,17 @@ pub(super) fn of(outcome: &Outcome) -> String {
 
 /// What holds and what degrades, in words.
 pub(crate) fn bounds(about: &About) -> (String, String) {
-    let bounds = &about.bounds;
+    let limits = &about.limits;
     let percent = |x: f64| format!("{} % wrong decisions", x * 100.0);
     let side = |x: f64| format!("{} % on the wrong side", x * 100.0);
     let error = |x: f64| format!("an error of {x} {}", about.unit);
     let angle = |x: f64| format!("an angle of {x} rad");
-    let told = |pick: fn(&Bound) -> f64, saturations| {
+    let told = |pick: fn(&StateLimit) -> f64, saturations| {
         let each = [
-            bounds.wrong.map(|b| percent(pick(&b))),
-            bounds.side.map(|b| side(pick(&b))),
-            bounds.error.map(|b| error(pick(&b))),
-            bounds.angle.map(|b| angle(pick(&b))),
+            limits.wrong.map(|b| percent(pick(&b))),
+            limits.side.map(|b| side(pick(&b))),
+            limits.error.map(|b| error(pick(&b))),
+            limits.angle.map(|b| angle(pick(&b))),
         ];
         let each: Vec<String> = each.into_iter().flatten().collect();
         format!("at most {}, {saturations}", each.join(", "))
