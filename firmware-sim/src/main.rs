@@ -1,6 +1,6 @@
 //! Firmware for a board without an operating system: renders the scene that the build script baked, and reports the
 //! picture's hash and the maximum stack depth by semihosting. Exit codes: 0 success, 101 panic, 102 fault, 103 stack
-//! overflow.
+//! overflow, 104 missing capacity for rays.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]

@@ -4,7 +4,7 @@ mod draw;
 mod words;
 
 use crate::check::Fault;
-use crate::parse::{Keyword, Span};
+use crate::word::{Keyword, Span};
 
 /// The number of mistakes that are kept; of more, only their existence is recorded.
 pub const MOST: usize = 20;

@@ -26,6 +26,7 @@ pub mod diagnostic;
 pub mod generate;
 pub mod model;
 pub mod parse;
+mod word;
 pub mod write;
 
 pub use generate::generate;

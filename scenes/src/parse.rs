@@ -16,7 +16,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-pub use token::{Keyword, Span};
+pub use crate::word::{Keyword, Span};
 
 /// Reads a scene from its text.
 ///

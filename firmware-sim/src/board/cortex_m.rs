@@ -9,6 +9,6 @@ fn main() -> ! {
 
 #[exception]
 unsafe fn HardFault(_: &ExceptionFrame) -> ! {
-    super::tell::text("fault\n");
+    super::print::text("fault\n");
     semihosting::process::exit(102)
 }

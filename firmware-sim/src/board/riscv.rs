@@ -10,6 +10,6 @@ fn main() -> ! {
 /// Handles every exception, as none has a handler of its own.
 #[unsafe(no_mangle)]
 extern "C" fn ExceptionHandler(_: &TrapFrame) -> ! {
-    super::tell::text("fault\n");
+    super::print::text("fault\n");
     semihosting::process::exit(102)
 }

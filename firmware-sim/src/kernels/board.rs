@@ -8,20 +8,20 @@ mod inputs;
 mod kernels;
 #[path = "../board/marks.rs"]
 mod marks;
+#[path = "../board/print.rs"]
+#[expect(dead_code, reason = "pictures have a hash")]
+mod print;
 #[cfg(target_arch = "riscv32")]
 #[path = "../board/riscv.rs"]
 mod riscv;
-#[path = "../board/tell.rs"]
-#[expect(dead_code, reason = "pictures have a hash")]
-mod tell;
 
 use crate::baked::{S, SCENE, TREE, Tree};
 use core::hint::black_box;
 use inputs::{NARROW, WIDE, aimed, numbers, pairs, vectors};
 use kernels::{Shapes, Stack, Walk};
-use octray_core::octree::Accelerator;
+use octray_core::accel::Accelerator;
+use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
-use octray_core::shape::{Kind, ObjectRef};
 use octray_embedded::tally::Tally;
 use semihosting::process::exit;
 
@@ -29,20 +29,20 @@ use semihosting::process::exit;
 fn run() -> ! {
     marks::octray_resume();
     arithmetic();
-    let hits = Kind::ALL.map(shape);
+    let hits = ObjectKind::ALL.map(shape);
     let steps = tree();
     lights();
     marks::octray_pause();
-    tell::text("arith ");
-    tell::text(crate::baked::ARITH);
+    print::text("arith ");
+    print::text(crate::baked::ARITH);
     for (name, hits) in ["sphere", "triangle", "polygon", "cone", "box"]
         .iter()
         .zip(hits)
     {
-        tell::number(name, hits);
+        print::number(name, hits);
     }
-    tell::number("steps", steps);
-    tell::text("\n");
+    print::number("steps", steps);
+    print::text("\n");
     exit(0)
 }
 
@@ -77,13 +77,13 @@ fn arithmetic() {
 }
 
 /// Runs the hit test of one kind of shape, on rays of which some hit. Returns the number of hits.
-fn shape(kind: Kind) -> u32 {
+fn shape(kind: ObjectKind) -> u32 {
     let kernel: fn(&Shapes, usize, &Ray<S>) -> Option<S> = match kind {
-        Kind::Sphere => kernels::kernel_sphere,
-        Kind::Triangle => kernels::kernel_triangle,
-        Kind::Polygon => kernels::kernel_polygon,
-        Kind::Cone => kernels::kernel_cone,
-        Kind::Cuboid => kernels::kernel_box,
+        ObjectKind::Sphere => kernels::kernel_sphere,
+        ObjectKind::Triangle => kernels::kernel_triangle,
+        ObjectKind::Polygon => kernels::kernel_polygon,
+        ObjectKind::Cone => kernels::kernel_cone,
+        ObjectKind::Cuboid => kernels::kernel_box,
     };
     let kernel = black_box(kernel);
     let shapes = black_box(&SCENE.shapes);
@@ -102,11 +102,10 @@ fn tree() -> u32 {
     let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
     // A node has two words and two more per child; the upper bits of the second word hold the number of children.
-    let size = tree.words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
-    let trunk = Tree {
-        words: tree.words.get(..size as usize).unwrap_or_default(),
-        ..*tree
-    };
+    let words = tree.words();
+    let size = words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
+    let root_alone = words.get(..size as usize).unwrap_or_default();
+    let trunk = Tree::new(root_alone, tree.links(), tree.tick()).unwrap_or(*tree);
     let trunk = black_box(&trunk);
     let mut stack = Stack::default();
     let mut steps = 0;
@@ -130,8 +129,8 @@ fn lights() {
     ];
     let [one, two] = kernels.map(black_box);
     let scene = black_box(&SCENE);
-    for i in 0..scene.shapes.count(Kind::Sphere) {
-        let sphere = ObjectRef::new(Kind::Sphere, i as u32);
+    for i in 0..scene.shapes.count(ObjectKind::Sphere) {
+        let sphere = ObjectRef::new(ObjectKind::Sphere, i as u32);
         for ray in aimed(sphere, NARROW) {
             black_box(one(scene, sphere, black_box(&ray)));
             black_box(two(scene, sphere, black_box(&ray)));

@@ -180,7 +180,7 @@ fn bar(x: i32, y: i32) -> Rectangle<(i32, i32)> {
 fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) -> Drawn<B> {
     let mut x = left;
     let sample = |state, cause| Cell {
-        tally: Default::default(),
+        errors: Default::default(),
         state,
         cause,
         admitted: false,

@@ -1,6 +1,6 @@
 //! The scenes that belong to values of sweeps: they decide whether a format admits the value, and how it is scaled.
 
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, limits, quantise, resolution};
 use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};

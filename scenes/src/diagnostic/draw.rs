@@ -1,7 +1,7 @@
 //! Draws mistakes beside their lines.
 
 use super::{Diagnostic, Diagnostics, MOST, MistakeKind, words};
-use crate::parse::Span;
+use crate::word::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// How many characters of a line are shown before, inside and after a span.

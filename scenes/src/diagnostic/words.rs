@@ -2,7 +2,7 @@
 
 use super::MistakeKind;
 use crate::check::Fault;
-use crate::parse::Keyword;
+use crate::word::Keyword;
 
 const KEYWORDS: &str =
     "expected one of `v at up angle view resolution b l f s c box p pp`, in lower case";

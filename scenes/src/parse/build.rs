@@ -2,10 +2,10 @@
 
 use super::entity::Entity;
 use super::header::Header;
-use super::token::{Keyword, Span};
 use crate::check::{self, Fault};
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::{Light, Object, Point, Scene, Shape, Surface};
+use crate::word::{Keyword, Span};
 
 /// A scene under construction.
 #[derive(Debug, Default)]

@@ -1,9 +1,10 @@
 //! Entities: a keyword and everything after it up to the next keyword.
 
-use super::token::{Keyword, Lexeme, Lexer, Span, Token};
+use super::token::{Lexeme, Lexer, Token};
 use crate::check::Fault;
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::Projection;
+use crate::word::{Keyword, Span};
 use std::ops::Range;
 
 /// A keyword and what follows it.

@@ -2,10 +2,10 @@
 //! background.
 
 use super::entity::Entity;
-use super::token::{Keyword, Span};
 use crate::check::{self, Fault};
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::{Camera, Colour, Point, Projection, Scene};
+use crate::word::{Keyword, Span};
 
 /// Rows and columns if the file does not state them.
 const DEFAULT_SIZE: u32 = 512;

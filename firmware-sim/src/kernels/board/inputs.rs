@@ -1,9 +1,9 @@
 //! The inputs of kernels: the same on every board, and in every arithmetic as nearly the same as its numbers allow.
 
 use crate::baked::{S, SCENE};
+use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
-use octray_core::scalar::Scalar;
-use octray_core::shape::ObjectRef;
+use octray_core::scalar::{Ratio, Scalar};
 use octray_core::vec3::{Vec3, vec3};
 
 /// The number of numbers.
