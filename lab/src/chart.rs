@@ -17,7 +17,7 @@ pub mod report;
 pub mod setting;
 
 use crate::canvas;
-use crate::measure::frames::{self, Named};
+use crate::measure::frames::{self, NamedScene};
 use accuracy::{Accuracy, Judge};
 use cost::{CostKind, Meter};
 use figure::Chart;
@@ -94,7 +94,7 @@ pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Erro
 /// A scene, and how far off its picture is with each setting; or why it has none.
 pub struct Judged {
     path: PathBuf,
-    scene: Named,
+    scene: NamedScene,
     outcomes: Vec<(RenderSettings, Result<Accuracy, String>)>,
 }
 
@@ -103,14 +103,14 @@ pub struct Judged {
 /// # Errors
 /// When a scene does not even fit f64, or the work is interrupted.
 pub fn judge(
-    scenes: Vec<(PathBuf, Named)>,
+    scenes: Vec<(PathBuf, NamedScene)>,
     job: &ChartJob,
     interrupt: &Interrupt,
 ) -> Result<Vec<Judged>, Error> {
     let settings = job.grid.settings(job.size);
     let progress = Bar::new("judging");
     progress.start(scenes.len() * settings.len());
-    let judged = |(path, scene): (PathBuf, Named)| {
+    let judged = |(path, scene): (PathBuf, NamedScene)| {
         let mut judge = Judge::new(&scene.scene, job, interrupt)?;
         let outcomes = (settings.iter())
             .map(|setting| {

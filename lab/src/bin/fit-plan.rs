@@ -9,9 +9,9 @@ use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_lab::measure;
 use octray_lab::measure::board::{self, Board};
-use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob};
-use octray_lab::measure::report::Report;
-use octray_lab::measure::row::{COLUMNS, Row};
+use octray_lab::measure::job::{FirmwareOptions, Goal, MeasureJob};
+use octray_lab::measure::report::MeasureReport;
+use octray_lab::measure::row::{COLUMNS, FrameRow};
 use octray_lab::plan::comb::comb;
 use octray_lab::plan::fit;
 use octray_lab::plan::model::Model;
@@ -122,7 +122,7 @@ fn measure(
     boards: &[String],
     scenes: &Path,
     interrupt: &Interrupt,
-) -> Result<Report<Row>, Box<dyn Error>> {
+) -> Result<MeasureReport<FrameRow>, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let generated = |objects: usize| -> Result<Vec<PathBuf>, Box<dyn Error>> {
         let write = |kind: SceneKind| -> Result<PathBuf, Box<dyn Error>> {
@@ -155,7 +155,7 @@ fn measure(
         .into_iter()
         .filter_map(|named| named.first().copied())
         .collect();
-    let mut all: Option<Report<Row>> = None;
+    let mut all: Option<MeasureReport<FrameRow>> = None;
     for (scenes, tree) in [(with, FirmwareTree::COMPACT), (without, FirmwareTree::NONE)] {
         let report = measure::measure(&job(scenes, tree, &boards), interrupt)?;
         match &mut all {
@@ -183,7 +183,7 @@ fn job(scenes: Vec<PathBuf>, tree: FirmwareTree, boards: &[&'static Board]) -> M
             size: Some((64, 48)),
             ..RenderSettings::DEFAULT
         },
-        build: BuildOptions {
+        build: FirmwareOptions {
             tree,
             optimize: Goal::Speed,
         },

@@ -16,7 +16,7 @@ pub(super) fn of(outcome: &Outcome) -> String {
     for form in about.forms {
         let _ = writeln!(text, "  {:<9} {}", form.name, form.label);
     }
-    let (holds, degrades) = bounds(about);
+    let (holds, degrades) = limits(about);
     let _ = writeln!(
         text,
         "  {:<9} {holds}\n  {:<9} {degrades}",
@@ -45,7 +45,7 @@ pub(super) fn of(outcome: &Outcome) -> String {
 }
 
 /// What holds and what degrades, in words.
-pub(crate) fn bounds(about: &About) -> (String, String) {
+pub(crate) fn limits(about: &About) -> (String, String) {
     let limits = &about.limits;
     let percent = |x: f64| format!("{} % wrong decisions", x * 100.0);
     let side = |x: f64| format!("{} % on the wrong side", x * 100.0);
