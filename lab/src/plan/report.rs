@@ -206,9 +206,9 @@ fn failures(chosen: &Candidate, limits: &PlanLimits) -> Vec<String> {
         ("RAM", chosen.cost.ram(), limits.ram),
     ];
     let failed = needs.into_iter().filter(|(_, needs, has)| needs > has);
-    let told = failed.map(|(what, needs, has)| {
+    let sentences = failed.map(|(what, needs, has)| {
         let [needed, more, has] = [needs, needs - has, has].map(thousands);
         format!("{what}: the nearest plan takes {needed} bytes, {more} more than {has}")
     });
-    told.collect()
+    sentences.collect()
 }

@@ -2,7 +2,7 @@
 
 use super::page::{self, Section, table};
 use crate::tables::emulated;
-use crate::tables::record::{self, Row};
+use crate::tables::record::{self, RecordRow};
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
@@ -60,7 +60,7 @@ const HEAD: [&str; 8] = [
     "PSNR",
 ];
 
-fn cells(row: &Row) -> Vec<String> {
+fn cells(row: &RecordRow) -> Vec<String> {
     let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
     let (cost, accuracy) = match row.per_pixel {
         None => (row.outcome.clone(), "–".into()),

@@ -38,6 +38,7 @@ pub struct About {
     /// The forms, the shipped one first.
     pub forms: &'static [Form],
     /// The limits of holding, degrading and breaking.
+    #[serde(rename = "bounds")]
     pub limits: StateLimits,
 }
 
