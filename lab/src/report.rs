@@ -59,6 +59,6 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();
     output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;
-    let told = format!("{}: {} bytes\n", job.output.display(), page.len());
-    output::write_stdout(interrupt, |out| out.write_all(told.as_bytes()))
+    let summary = format!("{}: {} bytes\n", job.output.display(), page.len());
+    output::write_stdout(interrupt, |out| out.write_all(summary.as_bytes()))
 }

@@ -68,7 +68,7 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
         fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
     }
     let tables = make(job, interrupt)?;
-    let tell = |out: &mut dyn io::Write| match job.json {
+    let print = |out: &mut dyn io::Write| match job.json {
         true => {
             serde_json::to_writer_pretty(&mut *out, &tables)?;
             writeln!(out)
@@ -79,8 +79,8 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
         }
     };
     match &job.output {
-        Some(path) => output::write_file(path, interrupt, tell),
-        None => output::write_stdout(interrupt, tell),
+        Some(path) => output::write_file(path, interrupt, print),
+        None => output::write_stdout(interrupt, print),
     }
 }
 

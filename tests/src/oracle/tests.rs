@@ -1,4 +1,4 @@
-//! The oracle's pieces against numbers computed by hand.
+//! Tests of the oracle's parts against numbers computed by hand.
 
 use super::camera::Camera;
 use super::cone::Cone;
@@ -31,7 +31,7 @@ fn down(x: f64, y: f64) -> Ray {
 // Reading
 
 #[test]
-fn both_forms_of_each_entity_are_told_apart_by_their_numbers() {
+fn both_forms_of_each_entity_are_distinguished_by_their_numbers() {
     let scene = read::scene(
         "v 1 2 3 # thesis\r\nresolution 20 40\tb .1 2e-1 0.3 l 0 0 1 0.5 l 0 0 2 l 0 0 3 1 0.5 0.25 l 0 0 4 # last
         f 1 2 3 4 5 6 7 8 9 10 11 12 s 0 0 0 -2 f 1 2 3 4 5 6 7 8 9 10 11 12 13 s 0 0 0 1
@@ -142,7 +142,7 @@ fn nff_angle_lies_between_the_centres_of_the_outer_rows() {
 }
 
 #[test]
-fn nff_parallel_rays_pass_the_plane_through_at_where_the_perspective_rays_do() {
+fn nff_parallel_rays_pass_the_plane_through_at_like_the_perspective_rays() {
     let text = "v 0 0 5 at 0 0 3 up 0 2 1 angle 90 resolution 3 3";
     let ray = Camera::new(&view(&format!("{text} view parallel")), None).ray(2.5, 0.5);
     near(ray.direction, v(0.0, 0.0, -1.0));
@@ -210,7 +210,7 @@ fn cone_has_a_side_and_no_caps() {
     );
     assert_eq!(cone.hit(&down(0.0, 2.5)), None);
     near(cone.normal(v(0.0, 1.0, 1.0)), v(0.0, ROOT_HALF, ROOT_HALF));
-    // In at the open base, onto the inside: x = 1 meets the radius at y = 1.
+    // Through the open base, onto the inside: x = 1 meets the radius at y = 1.
     close(
         cone.hit(&Ray::new(v(1.0, -5.0, 0.0), v(0.0, 1.0, 0.0)))
             .unwrap(),
@@ -257,7 +257,7 @@ fn the_bounding_sphere_hides_no_hit() {
 
 #[test]
 fn polygon_follows_the_even_odd_rule() {
-    // A square with a notch reaching in from the right, and a pentagram.
+    // A square with a notch from the right, and a pentagram.
     let notched = Polygon::new(
         vec![
             v(0., 0., 1.),
@@ -324,8 +324,7 @@ fn patch_normal_is_interpolated_over_the_fan() {
         patch.shading_normal(v(0.75, 0.25, 0.)),
         v(0.5, 0.25, 1.0).unit(),
     );
-    // In the second triangle the second vertex has no part: 0.25 of the first, 0.5 of the third,
-    // 0.25 of the fourth.
+    // In the second triangle the second vertex has no weight: 0.25 of the first, 0.5 of the third, 0.25 of the fourth.
     near(
         patch.shading_normal(v(0.5, 0.75, 0.)),
         v(0.0, 0.5, 0.5).unit(),
@@ -377,7 +376,7 @@ fn light_and_gloss_add_up() {
     assert_eq!(pixel(lit), [97; 3]);
     let coloured = "l 3 0 5 0.5 0 1 f 0.1 0.1 0.1 0.5 0.5 0.5 0.25 0.25 0.25 2 0 0 s 0 0 0 1";
     assert_eq!(pixel(coloured), [97, 26, 168]);
-    // A light behind the surface gives only ambient, and is not asked for.
+    // Behind the surface a light adds nothing, and no shadow ray is traced.
     let behind = pixel_with(
         "l 0 0 -5 1 f 0.1 0.1 0.1 1 1 1 1 1 1 0 0 0 p 3 -9 -9 0 9 -9 0 0 9 0",
         &Options::default(),
@@ -387,7 +386,7 @@ fn light_and_gloss_add_up() {
 
 #[test]
 fn zero_to_the_zero_is_one() {
-    // A wall at 45° mirrors the ray along −z into −x, square to the light in +z.
+    // A wall at 45° mirrors the ray along −z to −x, perpendicular to the light in +z.
     let wall = "l 0 0 9 1 f 0 0 0 0 0 0 0.5 0.5 0.5 0 0 0 p 4 -5 -5 -5 5 -5 5 5 5 5 -5 5 -5";
     assert_eq!(pixel(wall), [128; 3]);
     assert_eq!(pixel(&wall.replace("0.5 0 0 0", "0.5 1 0 0")), [0; 3]);
@@ -406,7 +405,7 @@ fn anything_between_a_point_and_a_light_blocks_it() {
 }
 
 #[test]
-fn mirror_and_glass_bring_their_shares() {
+fn mirror_and_glass_contribute_their_shares() {
     // A mirror of 0.5 under the background.
     assert_eq!(
         pixel("f 0.1 0.1 0.1 0 0 0 0 0 0 1 0.5 0 p 3 -9 -9 0 9 -9 0 0 9 0"),
@@ -425,9 +424,8 @@ fn mirror_and_glass_bring_their_shares() {
 }
 
 #[test]
-fn polygons_are_entered_each_time_and_spheres_left() {
-    // A ray at 45° upon polygons of ior 0.5 is wholly reflected, whichever way they are wound; its
-    // term is 0.
+fn polygons_are_entered_at_each_hit_and_spheres_are_left() {
+    // A ray at 45° to polygons of ior 0.5 is totally reflected, for either winding; its transmitted term is 0.
     let wall = "f 0.4 0.4 0.4 0 0 0 0 0 0 1 0 0.75 0.5 p 4";
     for corners in [
         "-5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
@@ -436,7 +434,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
         let picture = pixel_with(&format!("{wall} {corners}"), &Options::default());
         assert_eq!((picture.rgb, picture.counts.transmitted), (vec![26; 3], 0));
     }
-    // Of ior 2, they let it pass.
+    // With ior 2 they transmit it.
     let picture = pixel_with(
         &format!(
             "{} -5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
@@ -448,7 +446,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
         (picture.rgb, picture.counts.transmitted),
         (vec![64, 102, 140], 1)
     );
-    // Into a box of ior 2 at a right angle, and out of it again.
+    // Into a box of ior 2 perpendicularly, and out of it again.
     let picture = pixel_with(
         "f 0.4 0.4 0.4 0 0 0 0 0 0 1 0 0.75 2 box 0 0 0 2 2 2",
         &Options::default(),
@@ -461,7 +459,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
 
 #[test]
 fn depth_and_weight_end_the_recursion() {
-    // Two facing mirrors of 0.5; the eye between them.
+    // Two facing mirrors of 0.5, with the eye between them.
     let hall =
         "f 0.2 0.2 0.2 0 0 0 0 0 0 1 0.5 0 p 3 -9 -9 0 9 -9 0 0 9 0 p 3 -9 -9 20 9 -9 20 0 9 20";
     let with = |max_depth, cut_off| {
@@ -474,7 +472,7 @@ fn depth_and_weight_end_the_recursion() {
             },
         )
     };
-    // 0.2 · (1 + 1/2 + 1/4 + …), as many terms as rays.
+    // 0.2 · (1 + 1/2 + 1/4 + …), with one term per ray.
     assert_eq!(with(0, 0.0).rgb, [51; 3]);
     assert_eq!(with(2, 0.0).rgb, [89; 3]);
     assert_eq!(with(2, 0.0).counts.reflected, 2);
@@ -490,7 +488,7 @@ fn depth_and_weight_end_the_recursion() {
 
 #[test]
 fn a_pixel_is_the_mean_of_its_clamped_samples() {
-    // The left half of the pixel is covered by an over-bright polygon before black.
+    // A polygon brighter than 1 covers the left half of the pixel; the rest is black.
     let half = "b 0 0 0 f 2 2 2 0 0 0 0 0 0 1 0 0 p 4 -9 -9 0 0 -9 0 0 9 0 -9 9 0";
     let picture = pixel_with(
         half,
@@ -503,7 +501,7 @@ fn a_pixel_is_the_mean_of_its_clamped_samples() {
 }
 
 #[test]
-fn four_pixels_a_ray_share_the_colour_of_their_middle() {
+fn four_pixels_per_ray_share_the_colour_of_their_middle() {
     let text = "v 0 0 10 view parallel resolution 3 5 b 0 0 0 f 1 1 1 0 0 0 0 0 0 1 0 0 box -1 0.7 0 2.5 1 1";
     let four = Options {
         pixels_per_ray: 4,
