@@ -2,10 +2,9 @@
 
 use super::accuracy::{Accuracy, Tried};
 use super::choice::{Candidate, Chooser};
-use super::decision::{Cheaper, Cost, Decision, decibels};
+use super::decision::{Cost, Decision, decibels};
 use super::events::Events;
 use super::job::{Bounds, PlanJob};
-use super::model::Prediction;
 use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
 use super::verify::Verification;
 use octray_prepare::plan::Plan;
