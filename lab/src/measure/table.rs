@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_failure_stands_where_numbers_would() {
-        let text = text(&rows(), 0);
+        let text = text(&rows(), "", 0);
         let last = text.lines().last().unwrap();
         assert!(last.contains("| stack overflow "), "{text}");
         assert!(!last.contains("55,"), "{text}");
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_costliest_functions_are_told_if_asked_for() {
-        let text = text(&rows(), 1);
+        let text = text(&rows(), "", 1);
         assert!(text.contains("figure-22 m3 auto\n   44.9 %       25,000,000  f\n"));
         assert!(!text.contains("  g"), "{text}");
     }
