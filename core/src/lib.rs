@@ -8,19 +8,20 @@
 //! | [`vec3`], [`ray`] | vectors, rays, boxes |
 //! | [`shape`] | spheres, cones, boxes, polygons: where a ray meets them, and their surface there |
 //! | [`scene`], [`camera`] | slices of shapes, surfaces and lights; where rays start |
-//! | [`needs`] | what a scene does without, so that no code for it is linked |
-//! | [`octree`] | which shapes a ray has to be tested against: three trees in lent memory, or none |
-//! | [`packet`] | a picture, its active region, and the rows that one thread renders |
+//! | [`features`] | what a scene does without, so that no code for it is linked |
+//! | [`accel`] | which shapes a ray has to be tested against: three trees in lent memory, or none |
+//! | [`frame`] | a picture, its active region, and the rows that one thread renders |
 //! | [`trace`], `shade` | Whitted's recursion on a bounded stack; the light of a surface |
 //! | [`observe`] | who counts rays, steps and tests, at no cost if nobody does |
 #![no_std]
 #![deny(unsafe_code)]
 
+pub mod accel;
 pub mod camera;
-pub mod needs;
+pub mod features;
+pub mod frame;
+pub mod object;
 pub mod observe;
-pub mod octree;
-pub mod packet;
 pub mod ray;
 pub mod scalar;
 pub mod scene;

@@ -1,6 +1,6 @@
 //! What the tracer tells whoever wants to know: rays by kind, steps, tests.
 
-use crate::shape::Kind;
+use crate::object::ObjectKind;
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub trait Observer {
     fn step(&mut self, _children: usize) {}
     /// A ray was tested against an object of a kind, and met it or not.
     #[inline(always)]
-    fn test(&mut self, _: Kind, _met: bool) {}
+    fn test(&mut self, _: ObjectKind, _met: bool) {}
     /// A test came to an outline, and to so many of its edges: the ray meets a polygon's plane in
     /// the polygon's box, and nearer than the limit. Triangles do not tell.
     #[inline(always)]
@@ -43,7 +43,7 @@ pub trait Observer {
     fn side(&mut self) {}
     /// This many rays wait on the stack.
     #[inline(always)]
-    fn pending(&mut self, _: usize) {}
+    fn queued(&mut self, _: usize) {}
 }
 
 impl Observer for () {}
@@ -60,19 +60,19 @@ pub struct Counters {
     /// The most rays that ever waited on the stack.
     pub deepest: u64,
     /// Steps and tests: of rays that look for the closest hit, and of shadow rays.
-    pub searches: [Searches; 2],
+    pub queries: [QueryCounts; 2],
     /// Which of the two is going on, 0 or 1.
-    pub search: usize,
+    pub query: usize,
 }
 
 /// What searches did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Searches {
+pub struct QueryCounts {
     /// Octree nodes visited.
     pub steps: u64,
     /// Their children.
     pub children: u64,
-    /// Object tests by [`Kind`].
+    /// Object tests by [`ObjectKind`].
     pub tests: [u64; 5],
     /// Those of them that met the object.
     pub met: [u64; 5],
@@ -84,7 +84,7 @@ pub struct Searches {
     pub sides: u64,
 }
 
-impl Searches {
+impl QueryCounts {
     fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.children += other.children;
@@ -111,12 +111,12 @@ impl Counters {
 
     /// Octree nodes visited.
     pub fn steps(&self) -> u64 {
-        self.searches.iter().map(|search| search.steps).sum()
+        self.queries.iter().map(|search| search.steps).sum()
     }
 
     /// Object tests.
     pub fn tests(&self) -> u64 {
-        self.searches.iter().flat_map(|search| search.tests).sum()
+        self.queries.iter().flat_map(|search| search.tests).sum()
     }
 
     /// Adds another count to this one.
@@ -129,7 +129,7 @@ impl Counters {
         }
         self.blocked += other.blocked;
         self.deepest = self.deepest.max(other.deepest);
-        for (mine, theirs) in self.searches.iter_mut().zip(&other.searches) {
+        for (mine, theirs) in self.queries.iter_mut().zip(&other.queries) {
             mine.add(theirs);
         }
     }
@@ -139,7 +139,7 @@ impl Observer for Counters {
     #[inline(always)]
     fn ray(&mut self, kind: RayKind) {
         self.rays[kind as usize] += 1;
-        self.search = usize::from(kind == RayKind::Shadow);
+        self.query = usize::from(kind == RayKind::Shadow);
     }
     #[inline(always)]
     fn blocked(&mut self) {
@@ -151,28 +151,28 @@ impl Observer for Counters {
     }
     #[inline(always)]
     fn step(&mut self, children: usize) {
-        let search = &mut self.searches[self.search & 1];
+        let search = &mut self.queries[self.query & 1];
         search.steps += 1;
         search.children += children as u64;
     }
     #[inline(always)]
-    fn test(&mut self, kind: Kind, met: bool) {
-        let search = &mut self.searches[self.search & 1];
+    fn test(&mut self, kind: ObjectKind, met: bool) {
+        let search = &mut self.queries[self.query & 1];
         search.tests[kind as usize] += 1;
         search.met[kind as usize] += u64::from(met);
     }
     #[inline(always)]
     fn edges(&mut self, count: usize) {
-        let search = &mut self.searches[self.search & 1];
+        let search = &mut self.queries[self.query & 1];
         search.outlines += 1;
         search.edges += count as u64;
     }
     #[inline(always)]
     fn side(&mut self) {
-        self.searches[self.search & 1].sides += 1;
+        self.queries[self.query & 1].sides += 1;
     }
     #[inline(always)]
-    fn pending(&mut self, count: usize) {
+    fn queued(&mut self, count: usize) {
         self.deepest = self.deepest.max(count as u64);
     }
 }

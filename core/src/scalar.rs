@@ -1,13 +1,13 @@
 //! The numbers a picture is computed with: only the operations the tracer uses, and the laws that
 //! every implementation obeys.
 //!
-//! Laws, on which the octree's proof of exactness (see [`crate::octree`]) and the absence of
+//! Laws, on which the octree's proof of exactness (see [`crate::accel`]) and the absence of
 //! panics rest:
 //!
 //! 1. No operation panics, whatever its operands.
 //! 2. `+`, `-` and `*` by a fixed factor are monotone: a larger operand never gives a smaller
 //!    result (within the format's range).
-//! 3. [`Scalar::quotient`] and [`Scalar::scaled`] saturate where the quotient leaves the range.
+//! 3. [`Scalar::quotient`] and [`Scalar::times_reciprocal`] saturate where the quotient leaves the range.
 //! 4. The same operands give the same bits on every target.
 
 mod approx;
@@ -23,7 +23,7 @@ pub(crate) use fixed::reciprocal_q15;
 pub use fixed::{Fixed, Fixed64, Reciprocal, reset_saturations, saturations};
 pub(crate) use zeros::leading_zeros;
 
-use crate::octree::{Plane, Slope};
+use crate::accel::{BoundScalar, InvDirection};
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -84,18 +84,18 @@ pub trait Scalar:
     fn reciprocal(self) -> Self::Reciprocal;
 
     /// `self` divided by the number whose reciprocal is given, saturating.
-    fn scaled(self, reciprocal: Self::Reciprocal) -> Self;
+    fn times_reciprocal(self, reciprocal: Self::Reciprocal) -> Self;
 
     /// `self / divisor`, saturating.
     #[inline(always)]
     fn quotient(self, divisor: Self) -> Self {
-        self.scaled(divisor.reciprocal())
+        self.times_reciprocal(divisor.reciprocal())
     }
 
     /// Whether `numerator / divisor`, both ≥ 0, is certain to come out above `limit`: an answer
     /// without the division. Never true where [`Scalar::quotient`] gives `limit` or less, or what
     /// is found would depend on the order of the search.
-    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool;
+    fn quotient_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool;
 
     /// The reciprocal of a whole number, 1 ≤ `n` < 2³¹, for [`Scalar::ratio`].
     fn whole_reciprocal(n: u32) -> Self::Reciprocal;
@@ -104,7 +104,7 @@ pub trait Scalar:
     fn ratio(numerator: i32, n: Self::Reciprocal) -> Self;
 
     /// ⌊`self` · n⌋ for 0 ≤ `self` ≤ 1; monotone.
-    fn part(self, n: u32) -> u32;
+    fn scale_to_index(self, n: u32) -> u32;
 
     /// The unit vector along `v`, and the length of `v`. The null vector gives itself and 0.
     fn unit(v: [Self; 3]) -> ([Self; 3], Self);
@@ -121,8 +121,8 @@ pub trait Scalar:
 
     /// A bound on how far a computed surface point, refined onto its shape, can lie from that
     /// shape, with a margin for the next ray's own rounding. `position` is the largest coordinate
-    /// of the point, `reach` the size of a curved shape (0 for flat ones); both ≥ 0.
-    fn surface_error(position: Self, reach: Self) -> Self;
+    /// of the point, `curvature_extent` the size of a curved shape (0 for flat ones); both ≥ 0.
+    fn surface_error(position: Self, curvature_extent: Self) -> Self;
 
     /// The grey level of an intensity: ⌊255 · clamp(self, 0, 1) + ½⌋.
     fn level(self) -> u8;
@@ -131,7 +131,7 @@ pub trait Scalar:
     /// of two planes is met first does not hang on a last bit then. In fixed point quotients are
     /// rounded to absolute steps, and two that differ by less are equal already.
     #[inline(always)]
-    fn or_little_more(self) -> Self {
+    fn with_rounding_margin(self) -> Self {
         self
     }
 
@@ -160,30 +160,30 @@ pub trait Scalar:
     /// A coordinate or a length on the packed tree's grid: an integer, with `GRID_SLACK` at most
     /// between what a ray's computed point rounds to and where the ray truly is. Coordinates of a
     /// scene, and their differences, stay below 2³¹.
-    fn grid(self) -> i32;
+    fn to_grid(self) -> i32;
 
-    /// See [`Scalar::grid`].
+    /// See [`Scalar::to_grid`].
     const GRID_SLACK: i32;
 
     /// Whether hits always lie within [`Quantize::SLACK`] of the true surface. Where they do not,
     /// a hit's point has to be looked for in its object's box, and an octree that links objects by
     /// exact shape would miss hits that brute force finds.
-    const SOUND: bool;
+    const HITS_WITHIN_SLACK: bool;
 
     /// A direction's component with 30 bits behind the point.
-    fn slope_q30(self) -> i32;
+    fn direction_q30(self) -> i32;
 
     /// The number that the octree's planes and ray parameters are held in.
-    type Plane: Plane;
+    type Bound: BoundScalar;
 
     /// The same value as a plane coordinate, exactly.
-    fn plane(self) -> Self::Plane;
+    fn to_bound(self) -> Self::Bound;
 
     /// The nearest value to a plane coordinate.
-    fn from_plane(plane: Self::Plane) -> Self;
+    fn from_bound(bound: Self::Bound) -> Self;
 
     /// The reciprocal of a direction component as the octree's walk wants it.
-    fn slope(self) -> Slope<Self::Plane>;
+    fn inv_direction(self) -> InvDirection<Self::Bound>;
 }
 
 /// An exponent ≥ 0, split so that the whole part is done by repeated squaring.

@@ -1,21 +1,22 @@
 //! A scene in the arithmetic it is rendered in: slices that somebody else owns, in memory or flash.
 
-use crate::needs::{EVERYTHING, Needs};
+use crate::features::{ALL_FEATURES, FeatureSet};
+use crate::object::{ObjectKind, ObjectRef};
 use crate::scalar::{Exponent, Scalar};
-use crate::shape::{Kind, ObjectRef, Shapes};
+use crate::shape::Shapes;
 use crate::vec3::Vec3;
 
 /// A scene, ready to be traced. Whoever fills it in proves that nothing overflows: the middle of
-/// all shapes, lights and viewpoints is at the origin, and their largest distance, `reach`, is at
-/// most ⅔ of [`Scalar::MAX`], so that every point a ray comes to within its reach has coordinates
+/// all shapes, lights and viewpoints is at the origin, and their largest distance, `diameter`, is at
+/// most ⅔ of [`Scalar::MAX`], so that every point a ray comes to within its diameter has coordinates
 /// in range.
 ///
-/// What a scene has none of is not in the machine code if `NEEDS` leaves it out.
+/// What a scene has none of is not in the machine code if `FEATURES` leaves it out.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
+pub struct Scene<'a, S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES> {
     /// The geometry.
-    pub shapes: Shapes<'a, S, NEEDS>,
-    /// Who and of what surface each object is, kind by kind in the order of [`Kind`].
+    pub shapes: Shapes<'a, S, FEATURES>,
+    /// Who and of what surface each object is, kind by kind in the order of [`ObjectKind`].
     pub attributes: &'a [Attributes],
     /// Where each kind begins in `attributes`.
     pub first: [u32; 5],
@@ -26,7 +27,7 @@ pub struct Scene<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
     /// What a ray that hits nothing brings.
     pub background: Vec3<S>,
     /// No two points of shapes, lights and viewpoint are farther apart; no hit is looked for beyond.
-    pub reach: S,
+    pub diameter: S,
 }
 
 /// What is known of an object besides its geometry.
@@ -81,7 +82,7 @@ pub struct Light<S> {
     pub clearance: S,
 }
 
-impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {
+impl<S: Scalar, const FEATURES: FeatureSet> Scene<'_, S, FEATURES> {
     /// An object's attributes.
     #[inline(always)]
     pub fn attributes_of(&self, object: ObjectRef) -> Attributes {
@@ -94,10 +95,10 @@ impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {
     }
 
     /// Where each kind begins in the attributes of a scene with these shapes.
-    pub fn first_of(shapes: &Shapes<'_, S, NEEDS>) -> [u32; 5] {
+    pub fn first_of(shapes: &Shapes<'_, S, FEATURES>) -> [u32; 5] {
         let mut first = [0; 5];
         let mut sum = 0;
-        for kind in Kind::ALL {
+        for kind in ObjectKind::ALL {
             first[kind as usize] = sum;
             sum += shapes.count(kind) as u32;
         }

@@ -1,18 +1,18 @@
 //! Whitted's recursion, unrolled onto a bounded stack.
 
-use crate::needs::{self, EVERYTHING, Needs};
+use crate::accel::{Accelerator, Hit};
+use crate::features::{self, ALL_FEATURES, FeatureSet};
+use crate::object::ObjectRef;
 use crate::observe::{Observer, RayKind};
-use crate::octree::{Accelerator, Hit};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::scene::{Attributes, Scene, Surface};
 use crate::shade::{self, Point};
-use crate::shape::ObjectRef;
 use crate::vec3::Vec3;
 
 /// A ray that waits to be traced.
 #[derive(Clone, Copy, Debug)]
-pub struct Pending<S> {
+pub struct QueuedRay<S> {
     ray: Ray<S>,
     /// The share of its light that reaches the picture.
     weight: S,
@@ -20,7 +20,7 @@ pub struct Pending<S> {
     kind: RayKind,
 }
 
-impl<S: Scalar> Pending<S> {
+impl<S: Scalar> QueuedRay<S> {
     /// Fills an unused place.
     pub const EMPTY: Self = Self {
         ray: Ray {
@@ -37,25 +37,25 @@ impl<S: Scalar> Pending<S> {
 #[derive(Debug)]
 pub struct Workspace<'a, S, K> {
     /// Room for the rays that wait: one more than the deepest bounce.
-    pub rays: &'a mut [Pending<S>],
+    pub rays: &'a mut [QueuedRay<S>],
     /// Room for the tree's walk, [`Accelerator::Stack`].
     pub stack: &'a mut K,
     /// What blocked each light last; may be shorter than the list of lights.
-    pub blockers: &'a mut [Option<ObjectRef>],
+    pub shadow_cache: &'a mut [Option<ObjectRef>],
 }
 
 impl<S, K> Workspace<'_, S, K> {
     /// Forgets what blocked the lights, so that what is counted does not depend on the past.
-    pub fn forget(&mut self) {
-        self.blockers.fill(None);
+    pub fn clear_shadow_cache(&mut self) {
+        self.shadow_cache.fill(None);
     }
 }
 
 /// What is traced, and how far.
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a, S: Scalar, A, const NEEDS: Needs = EVERYTHING> {
+pub struct Tracer<'a, S: Scalar, A, const FEATURES: FeatureSet = ALL_FEATURES> {
     /// The scene.
-    pub scene: &'a Scene<'a, S, NEEDS>,
+    pub scene: &'a Scene<'a, S, FEATURES>,
     /// What finds its objects.
     pub accelerator: &'a A,
     /// The most bounces; what the workspace has no room for is not traced either.
@@ -64,7 +64,9 @@ pub struct Tracer<'a, S: Scalar, A, const NEEDS: Needs = EVERYTHING> {
     pub cut_off: S,
 }
 
-impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, NEEDS> {
+impl<S: Scalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
+    Tracer<'_, S, A, FEATURES>
+{
     /// The light that comes along a ray of the camera, not clamped (fixed point: at most 1).
     pub fn radiance<O: Observer>(
         &self,
@@ -74,7 +76,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
     ) -> Vec3<S> {
         let mut sum = Vec3::ZERO;
         let mut waiting = 0;
-        let mut next = Pending {
+        let mut next = QueuedRay {
             ray,
             weight: S::ONE,
             depth: 0,
@@ -89,7 +91,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
                 None => self.scene.background,
                 Some(hit) => {
                     observer.hit(next.kind);
-                    self.meet(&next, hit, workspace, &mut waiting, observer)
+                    self.shade_hit(&next, hit, workspace, &mut waiting, observer)
                 }
             };
             // The weight of a camera's ray is 1.
@@ -126,9 +128,9 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
     /// The light of the surface itself, less what a transparent one lets through. The reflected
     /// and the transmitted ray are put on the stack.
     #[inline(always)]
-    fn meet<O: Observer>(
+    fn shade_hit<O: Observer>(
         &self,
-        from: &Pending<S>,
+        from: &QueuedRay<S>,
         hit: Hit<S>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         waiting: &mut usize,
@@ -142,7 +144,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
             return Vec3::ZERO;
         };
         let mut normal = contact.outward;
-        if needs::needs(NEEDS, needs::PATCHES)
+        if features::contains(FEATURES, features::PATCHES)
             && attributes.patch != Attributes::FLAT
             && let Some(n) = scene
                 .shapes
@@ -150,39 +152,42 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
         {
             normal = n;
         }
-        let mut against = normal.dot(incoming);
-        let turned = against > S::ZERO;
-        if turned {
-            (normal, against) = (-normal, -against);
+        let mut n_dot_i = normal.dot(incoming);
+        let flipped = n_dot_i > S::ZERO;
+        if flipped {
+            (normal, n_dot_i) = (-normal, -n_dot_i);
         }
-        let reflects = needs::needs(NEEDS, needs::REFLECTION) && surface.reflect > S::ZERO;
-        let shines = needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO;
-        let refracts = needs::needs(NEEDS, needs::REFRACTION) && surface.refract > S::ZERO;
+        let reflects =
+            features::contains(FEATURES, features::REFLECTION) && surface.reflect > S::ZERO;
+        let shines =
+            features::contains(FEATURES, features::SPECULAR) && surface.specular != Vec3::ZERO;
+        let refracts =
+            features::contains(FEATURES, features::REFRACTION) && surface.refract > S::ZERO;
         let mut mirror = Vec3::ZERO;
         if reflects || shines {
-            mirror = incoming - normal * (against + against);
+            mirror = incoming - normal * (n_dot_i + n_dot_i);
         }
         if reflects {
             mirror = mirror.unit().0;
         }
-        let error = S::surface_error(contact.point.size(), contact.reach);
+        let error = S::surface_error(contact.point.size(), contact.curvature_extent);
         let point = Point {
             contact,
             normal,
-            turned,
+            flipped,
             smooth: attributes.patch != Attributes::FLAT,
             mirror,
             is_unit: reflects,
             error,
             offset: contact.outward * error,
         };
-        let light = shade::local(
+        let light = shade::direct_light(
             scene,
             self.accelerator,
             surface,
             point,
             workspace.stack,
-            workspace.blockers,
+            workspace.shadow_cache,
             observer,
         );
         let mut follow = |share: S, direction: Option<Vec3<S>>, kind: RayKind| {
@@ -194,19 +199,19 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
                 return;
             }
             if let (Some(direction), Some(place)) = (direction, workspace.rays.get_mut(*waiting)) {
-                *place = Pending {
-                    ray: point.ray::<NEEDS>(direction, kind == RayKind::Reflected),
+                *place = QueuedRay {
+                    ray: point.ray::<FEATURES>(direction, kind == RayKind::Reflected),
                     weight,
                     depth: from.depth + 1,
                     kind,
                 };
                 *waiting += 1;
-                observer.pending(*waiting);
+                observer.queued(*waiting);
             }
         };
         if refracts {
             let leaves = contact.closed && contact.outward.dot(incoming) > S::ZERO;
-            let through = refract(surface, incoming, normal, -against, leaves);
+            let through = refract(surface, incoming, normal, -n_dot_i, leaves);
             follow(surface.refract, through, RayKind::Transmitted);
         }
         if reflects {

@@ -7,7 +7,7 @@
 
 use super::float::power_f32;
 use super::{Exponent, Quantize, Scalar};
-use crate::octree::Slope;
+use crate::accel::InvDirection;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 use micromath::F32Ext;
@@ -117,12 +117,12 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn scaled(self, reciprocal: f32) -> Self {
+    fn times_reciprocal(self, reciprocal: f32) -> Self {
         Self((self.0 * reciprocal).clamp(f32::MIN, f32::MAX))
     }
 
     #[inline(always)]
-    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+    fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
         false
     }
 
@@ -137,7 +137,7 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         (self.0 * n as f32) as u32
     }
 
@@ -172,13 +172,13 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn surface_error(position: Self, reach: Self) -> Self {
+    fn surface_error(position: Self, curvature_extent: Self) -> Self {
         let curved = match N {
             0 => 1.0 / 16.0,
             1 => 1.0 / 256.0,
             _ => 1.0 / 65_536.0,
         };
-        Self(position.0 * (1.0 / 524_288.0) + reach.0 * curved)
+        Self(position.0 * (1.0 / 524_288.0) + curvature_extent.0 * curved)
     }
 
     #[inline(always)]
@@ -187,8 +187,8 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn or_little_more(self) -> Self {
-        Self(self.0.or_little_more())
+    fn with_rounding_margin(self) -> Self {
+        Self(self.0.with_rounding_margin())
     }
 
     #[inline(always)]
@@ -197,34 +197,34 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn grid(self) -> i32 {
-        self.0.grid()
+    fn to_grid(self) -> i32 {
+        self.0.to_grid()
     }
 
     const GRID_SLACK: i32 = f32::GRID_SLACK;
 
-    const SOUND: bool = N >= 2;
+    const HITS_WITHIN_SLACK: bool = N >= 2;
 
     #[inline(always)]
-    fn slope_q30(self) -> i32 {
-        self.0.slope_q30()
+    fn direction_q30(self) -> i32 {
+        self.0.direction_q30()
     }
 
-    type Plane = f32;
+    type Bound = f32;
 
     #[inline(always)]
-    fn plane(self) -> f32 {
+    fn to_bound(self) -> f32 {
         self.0
     }
 
     #[inline(always)]
-    fn from_plane(plane: f32) -> Self {
-        Self(plane)
+    fn from_bound(bound: f32) -> Self {
+        Self(bound)
     }
 
     #[inline(always)]
-    fn slope(self) -> Slope<f32> {
-        Slope::<f32>::of(self.0)
+    fn inv_direction(self) -> InvDirection<f32> {
+        InvDirection::<f32>::of(self.0)
     }
 }
 

@@ -10,7 +10,7 @@ pub use wide::Fixed64;
 
 use super::zeros::{leading_zeros, leading_zeros_64};
 use super::{Exponent, Quantize, Scalar, multiply};
-use crate::octree::Slope;
+use crate::accel::InvDirection;
 use core::ops::{Add, Mul, Neg, Sub};
 pub(crate) use root::reciprocal_q15;
 use root::{reciprocal_q30, rsqrt_q30};
@@ -261,13 +261,13 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn scaled(self, reciprocal: Reciprocal) -> Self {
+    fn times_reciprocal(self, reciprocal: Reciprocal) -> Self {
         Self(reciprocal.divide(self.0))
     }
 
     // The quotient's relative error is below 2⁻²⁷, its rounding below one step.
     #[inline(always)]
-    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
+    fn quotient_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
         let limit = i64::from(limit.0) + i64::from(limit.0 >> 24) + 4;
         i64::from(numerator.0) << F > i64::from(divisor.0) * limit
     }
@@ -284,7 +284,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         (multiply::unsigned(self.0.max(0) as u32, n) >> F) as u32
     }
 
@@ -343,9 +343,9 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn surface_error(_: Self, reach: Self) -> Self {
+    fn surface_error(_: Self, curvature_extent: Self) -> Self {
         // Rounding is absolute here, but for a curved shape's normal, which has F bits.
-        Self((reach.0 >> (F - 2)).wrapping_add(8))
+        Self((curvature_extent.0 >> (F - 2)).wrapping_add(8))
     }
 
     #[inline(always)]
@@ -360,35 +360,35 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn grid(self) -> i32 {
+    fn to_grid(self) -> i32 {
         self.0
     }
 
     const GRID_SLACK: i32 = 4;
 
-    const SOUND: bool = F >= 16;
+    const HITS_WITHIN_SLACK: bool = F >= 16;
 
     #[inline(always)]
-    fn slope_q30(self) -> i32 {
+    fn direction_q30(self) -> i32 {
         self.0 << (30 - F)
     }
 
-    type Plane = i32;
+    type Bound = i32;
 
     #[inline(always)]
-    fn plane(self) -> i32 {
+    fn to_bound(self) -> i32 {
         self.0
     }
 
     #[inline(always)]
-    fn from_plane(plane: i32) -> Self {
-        Self(plane)
+    fn from_bound(bound: i32) -> Self {
+        Self(bound)
     }
 
     #[inline(always)]
-    fn slope(self) -> Slope<i32> {
+    fn inv_direction(self) -> InvDirection<i32> {
         let Reciprocal { mantissa, shift } = Reciprocal::new(self.0, F);
-        Slope::<i32>::new(self.0 < 0, mantissa, shift)
+        InvDirection::<i32>::new(self.0 < 0, mantissa, shift)
     }
 }
 

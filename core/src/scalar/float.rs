@@ -3,11 +3,11 @@
 
 use super::whole::whole;
 use super::{Exponent, Quantize, Scalar, root};
-use crate::octree::Slope;
+use crate::accel::InvDirection;
 
 /// One definition of every operation for both widths.
 macro_rules! float {
-    ($t:ident, $sqrt:path, $power:path, whole: $whole:ident, position: $p:expr, reach: $r:expr) => {
+    ($t:ident, $sqrt:path, $power:path, whole: $whole:ident, position: $p:expr, curvature: $r:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -44,7 +44,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn scaled(self, reciprocal: Self) -> Self {
+            fn times_reciprocal(self, reciprocal: Self) -> Self {
                 self * reciprocal
             }
 
@@ -55,7 +55,7 @@ macro_rules! float {
 
             // A division costs no more than the question.
             #[inline(always)]
-            fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+            fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
                 false
             }
 
@@ -70,7 +70,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn part(self, n: u32) -> u32 {
+            fn scale_to_index(self, n: u32) -> u32 {
                 (self * n as $t) as u32
             }
 
@@ -102,8 +102,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn surface_error(position: Self, reach: Self) -> Self {
-                position * $p + reach * $r
+            fn surface_error(position: Self, curvature_extent: Self) -> Self {
+                position * $p + curvature_extent * $r
             }
 
             #[inline(always)]
@@ -113,7 +113,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn or_little_more(self) -> Self {
+            fn with_rounding_margin(self) -> Self {
                 // Four roundings.
                 self * (1.0 + 2.0 * $t::EPSILON)
             }
@@ -126,41 +126,41 @@ macro_rules! float {
             // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
             // a unit in `f32`, 2⁷ on the grid; points are off by a few.
             #[inline(always)]
-            fn grid(self) -> i32 {
+            fn to_grid(self) -> i32 {
                 $whole::<29>(self)
             }
 
             const GRID_SLACK: i32 = 1 << 10;
 
-            const SOUND: bool = true;
+            const HITS_WITHIN_SLACK: bool = true;
 
             #[inline(always)]
-            fn slope_q30(self) -> i32 {
+            fn direction_q30(self) -> i32 {
                 $whole::<30>(self)
             }
 
-            type Plane = Self;
+            type Bound = Self;
 
             #[inline(always)]
-            fn plane(self) -> Self {
+            fn to_bound(self) -> Self {
                 self
             }
 
             #[inline(always)]
-            fn from_plane(plane: Self) -> Self {
-                plane
+            fn from_bound(bound: Self) -> Self {
+                bound
             }
 
             #[inline(always)]
-            fn slope(self) -> Slope<Self> {
-                Slope::<Self>::of(self)
+            fn inv_direction(self) -> InvDirection<Self> {
+                InvDirection::<Self>::of(self)
             }
         }
     };
 }
 
-float!(f32, root::sqrt_f32, power_f32, whole: whole, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
-float!(f64, libm::sqrt, power_f64, whole: whole_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
+float!(f32, root::sqrt_f32, power_f32, whole: whole, position: 1.0 / 524_288.0, curvature: 1.0 / 524_288.0);
+float!(f64, libm::sqrt, power_f64, whole: whole_f64, position: 1.0 / (1u64 << 44) as f64, curvature: 1.0 / (1u64 << 44) as f64);
 
 impl Quantize for f32 {
     const NAME: &'static str = "f32";

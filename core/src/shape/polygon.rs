@@ -3,14 +3,14 @@
 
 use super::Contact;
 use crate::observe::Observer;
-use crate::ray::{Bounds, Ray};
+use crate::ray::{Aabb, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::{Axis, Vec3};
 
 /// The plane of a polygon, and the axis along which the polygon is projected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
-pub struct Flat<S> {
+pub struct Plane<S> {
     /// Its unit normal.
     pub normal: Vec3<S>,
     /// The dot product of the normal with the plane's points.
@@ -19,7 +19,7 @@ pub struct Flat<S> {
     pub axis: Axis,
 }
 
-impl<S: Scalar> Flat<S> {
+impl<S: Scalar> Plane<S> {
     /// Thesis (2.4), with the plane's offset that it lacks. Along a nearly parallel ray the quotient
     /// has no bound: it saturates, which is beyond every limit.
     #[inline(always)]
@@ -31,7 +31,7 @@ impl<S: Scalar> Flat<S> {
         } else {
             (above, rise)
         };
-        if above <= S::ZERO || S::surely_exceeds(above, rise, limit) {
+        if above <= S::ZERO || S::quotient_exceeds(above, rise, limit) {
             return None;
         }
         let t = above.quotient(rise);
@@ -52,7 +52,7 @@ impl<S: Scalar> Flat<S> {
         Contact {
             point: point - self.normal * above,
             outward: self.normal,
-            reach: S::ZERO,
+            curvature_extent: S::ZERO,
             closed: false,
         }
     }
@@ -99,7 +99,7 @@ pub(crate) fn encloses<S: Scalar>(corners: &[[S; 2]], p: [S; 2]) -> bool {
 #[repr(C)]
 pub struct Triangle<S> {
     /// Its plane.
-    pub plane: Flat<S>,
+    pub plane: Plane<S>,
     /// The vertices, projected.
     pub corners: [[S; 2]; 3],
     /// Its extent along the projection axis, with slack.
@@ -132,9 +132,9 @@ impl<S: Scalar> Triangle<S> {
     }
 
     /// The box that all hits lie in.
-    pub(super) fn bounds(&self) -> Bounds<S> {
+    pub(super) fn bounds(&self) -> Aabb<S> {
         let (u, v) = self.plane.axis.others();
-        let mut bounds = Bounds::default();
+        let mut bounds = Aabb::default();
         for (axis, Range(low, high)) in [(u, self.range(0)), (v, self.range(1))] {
             bounds.low[axis] = low;
             bounds.high[axis] = high;
@@ -159,13 +159,13 @@ impl<S: Scalar> Range<S> {
 #[repr(C)]
 pub struct Polygon<S: Scalar> {
     /// Its plane.
-    pub plane: Flat<S>,
+    pub plane: Plane<S>,
     /// Its first vertex in [`Outlines::corners`].
     pub first: u32,
     /// How many vertices it has.
     pub count: u32,
     /// The box that all hits lie in.
-    pub bounds: Bounds<S>,
+    pub bounds: Aabb<S>,
     /// Which of its edges can matter at a given height.
     pub bands: Bands<S>,
 }
@@ -189,9 +189,13 @@ impl<S: Scalar> Bands<S> {
     /// The band that holds height `v`; a higher point is never in a lower band.
     #[inline(always)]
     pub fn of(&self, v: S) -> u32 {
-        let share = (v - self.low).scaled(self.scale);
+        let share = (v - self.low).times_reciprocal(self.scale);
         let last = self.count.saturating_sub(1);
-        share.max(S::ZERO).min(S::ONE).part(self.count).min(last)
+        share
+            .max(S::ZERO)
+            .min(S::ONE)
+            .scale_to_index(self.count)
+            .min(last)
     }
 }
 
@@ -282,8 +286,8 @@ impl<S: Scalar> Patch<S> {
                 continue;
             }
             let reciprocal = whole.reciprocal();
-            let second = area(w, f).scaled(reciprocal);
-            let third = area(e, w).scaled(reciprocal);
+            let second = area(w, f).times_reciprocal(reciprocal);
+            let third = area(e, w).times_reciprocal(reciprocal);
             let first = S::ONE - second - third;
             let least = first.min(second).min(third);
             if least > best.0 {

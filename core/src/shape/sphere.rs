@@ -1,7 +1,7 @@
 //! The sphere.
 
 use super::{Contact, around};
-use crate::ray::{Bounds, Ray};
+use crate::ray::{Aabb, Ray};
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -44,13 +44,13 @@ impl<S: Scalar> Sphere<S> {
         } else {
             middle + half_chord
         };
-        let reach = self.radius + slack;
-        let in_box = || S::SOUND || (ray.at(t) - self.centre).size() <= reach;
+        let half_extent = self.radius + slack;
+        let in_box = || S::HITS_WITHIN_SLACK || (ray.at(t) - self.centre).size() <= half_extent;
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
     /// The box that all hits lie in.
-    pub(super) fn bounds(&self, slack: S) -> Bounds<S> {
+    pub(super) fn bounds(&self, slack: S) -> Aabb<S> {
         around(self.centre, self.radius + slack)
     }
 
@@ -61,7 +61,7 @@ impl<S: Scalar> Sphere<S> {
         Contact {
             point: self.centre + outward * self.radius,
             outward,
-            reach: self.radius,
+            curvature_extent: self.radius,
             closed: true,
         }
     }

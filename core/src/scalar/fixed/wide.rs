@@ -2,7 +2,7 @@
 //! division, slow and plain.
 
 use super::count;
-use crate::octree::Slope;
+use crate::accel::InvDirection;
 use crate::scalar::{Exponent, Quantize, Scalar};
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -124,7 +124,7 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn scaled(self, divisor: Self) -> Self {
+    fn times_reciprocal(self, divisor: Self) -> Self {
         if divisor.0 == 0 {
             return if self.0 < 0 { -Self::MAX } else { Self::MAX };
         }
@@ -132,7 +132,7 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+    fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
         false
     }
 
@@ -143,10 +143,10 @@ impl Scalar for Fixed64 {
 
     #[inline(always)]
     fn ratio(numerator: i32, n: Self) -> Self {
-        Self(i64::from(numerator)).scaled(n)
+        Self(i64::from(numerator)).times_reciprocal(n)
     }
 
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         ((i128::from(self.0.max(0)) * i128::from(n)) >> F) as u32
     }
 
@@ -192,8 +192,8 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn surface_error(_: Self, reach: Self) -> Self {
-        Self((reach.0 >> 28).wrapping_add(16))
+    fn surface_error(_: Self, curvature_extent: Self) -> Self {
+        Self((curvature_extent.0 >> 28).wrapping_add(16))
     }
 
     #[inline(always)]
@@ -207,33 +207,33 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn grid(self) -> i32 {
+    fn to_grid(self) -> i32 {
         (self.0 >> 32) as i32
     }
 
     const GRID_SLACK: i32 = 4;
 
-    const SOUND: bool = true;
+    const HITS_WITHIN_SLACK: bool = true;
 
     #[inline(always)]
-    fn slope_q30(self) -> i32 {
+    fn direction_q30(self) -> i32 {
         (self.0 >> (F - 30)) as i32
     }
 
-    type Plane = i64;
+    type Bound = i64;
 
     #[inline(always)]
-    fn plane(self) -> i64 {
+    fn to_bound(self) -> i64 {
         self.0
     }
 
     #[inline(always)]
-    fn from_plane(plane: i64) -> Self {
-        Self(plane)
+    fn from_bound(bound: i64) -> Self {
+        Self(bound)
     }
 
     #[inline(always)]
-    fn slope(self) -> Slope<i64> {
+    fn inv_direction(self) -> InvDirection<i64> {
         let size = self.0.unsigned_abs();
         let (mantissa, shift) = if size == 0 {
             (1i64 << 62, 0)
@@ -244,7 +244,7 @@ impl Scalar for Fixed64 {
             (mantissa, (125 - F - zeros) as u8)
         };
         let signed = if self.0 < 0 { -mantissa } else { mantissa };
-        Slope::<i64>::new(self.0 < 0, signed, shift)
+        InvDirection::<i64>::new(self.0 < 0, signed, shift)
     }
 }
 

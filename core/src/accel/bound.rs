@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 /// A plane's coordinate, and a distance along a ray.
-pub trait Plane: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
+pub trait BoundScalar: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     /// 0.
     const ZERO: Self;
     /// Beyond every box and every distance.
@@ -18,31 +18,31 @@ pub trait Plane: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     fn distance(self, origin: Self, inverse: Self::Inverse) -> Self;
 
     /// The coordinate of a box's low face that is sure to let in all that lies above `self`.
-    fn below(self) -> Self;
+    fn round_down(self) -> Self;
 
     /// The coordinate of a box's high face that is sure to let in all that lies below `self`.
-    fn above(self) -> Self;
+    fn round_up(self) -> Self;
 
     /// The middle of two coordinates.
-    fn middle(self, other: Self) -> Self;
+    fn midpoint(self, other: Self) -> Self;
 
     /// Clips a ray against eight boxes. Returns the distance at which each is entered, not less
     /// than 0, and a bit for each box that is entered before it is left and not beyond `limit`.
     #[inline(always)]
-    fn clip(
-        boxes: Faces<'_, Self>,
+    fn clip_boxes(
+        boxes: SlabPlanes<'_, Self>,
         origin: [Self; 3],
-        slope: &[Slope<Self>; 3],
+        inv_direction: &[InvDirection<Self>; 3],
         limit: Self,
     ) -> ([Self; 8], u32) {
         let mut entry = [Self::ZERO; 8];
         let mut exit = [limit; 8];
         for i in 0..3 {
             for k in 0..8 {
-                let near = boxes.near[i][k].distance(origin[i], slope[i].near);
-                let far = boxes.far[i][k].distance(origin[i], slope[i].far);
-                entry[k] = near.upper(entry[k]);
-                exit[k] = far.lower(exit[k]);
+                let near = boxes.near[i][k].distance(origin[i], inv_direction[i].near);
+                let far = boxes.far[i][k].distance(origin[i], inv_direction[i].far);
+                entry[k] = near.max(entry[k]);
+                exit[k] = far.min(exit[k]);
             }
         }
         let met = |mask, k: usize| mask | u32::from(entry[k] <= exit[k]) << k;
@@ -51,13 +51,13 @@ pub trait Plane: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
 
     /// The smaller of two.
     #[inline(always)]
-    fn lower(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
 
     /// The larger of two.
     #[inline(always)]
-    fn upper(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         if other > self { other } else { self }
     }
 
@@ -74,21 +74,21 @@ pub trait Plane: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     fn volume(sides: [Self; 3]) -> Self::Area;
 
     /// The sum of two areas.
-    fn sum(a: Self::Area, b: Self::Area) -> Self::Area;
+    fn add_areas(a: Self::Area, b: Self::Area) -> Self::Area;
 
     /// An area times a count.
-    fn times(area: Self::Area, count: u32) -> Self::Area;
+    fn scale_area(area: Self::Area, count: u32) -> Self::Area;
 
     /// `self` − `other` for `self` ≥ `other`.
-    fn minus(self, other: Self) -> Self;
+    fn difference(self, other: Self) -> Self;
 
     /// Which of `bins` equal parts of `low` … `high` holds `self`.
-    fn bin(self, low: Self, high: Self, bins: u32) -> u32;
+    fn bin_index(self, low: Self, high: Self, bins: u32) -> u32;
 }
 
 /// The planes of eight boxes that a ray comes to first and last on each axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Faces<'a, P> {
+pub struct SlabPlanes<'a, P> {
     /// Where it may enter.
     pub near: [&'a [P; 8]; 3],
     /// Where it may leave.
@@ -98,7 +98,7 @@ pub struct Faces<'a, P> {
 /// The reciprocal of a ray's direction along one axis.
 ///
 /// Let u be the unit of rounding, d the direction's component, o the origin's, [l, h] a box's side
-/// widened by [`Plane::below`] and [`Plane::above`], and P = o ⊕ (t ⊗ d) a point with
+/// widened by [`BoundScalar::round_down`] and [`BoundScalar::round_up`], and P = o ⊕ (t ⊗ d) a point with
 /// l' ≤ P ≤ h', where l' and h' are the sides before widening. Say d > 0. With three roundings
 /// between P and t, t d (1 + 3u) ≥ l' − u|l'| − o and, with three more in the walk, the distance
 /// (l − o) ⊗ 1/d is at most t (1 + 6u) if l ≤ l' − u|l'|: that is what the widening is for. `near`
@@ -108,7 +108,7 @@ pub struct Faces<'a, P> {
 /// smallest one that is not: a box whose widened side holds o is entered before every t and left
 /// after, one whose side does not hold it is missed.
 #[derive(Clone, Copy, Debug)]
-pub struct Slope<P: Plane> {
+pub struct InvDirection<P: BoundScalar> {
     /// Whether the ray goes down the axis.
     pub negative: bool,
     /// For the plane where a box is entered.
@@ -117,9 +117,9 @@ pub struct Slope<P: Plane> {
     pub far: P::Inverse,
 }
 
-macro_rules! float_plane {
+macro_rules! float_bound {
     ($t:ident, unit: $unit:expr, least: $least:expr $(, $clip:item)?) => {
-        impl Plane for $t {
+        impl BoundScalar for $t {
             const ZERO: Self = 0.0;
             const MAX: Self = $t::MAX;
             const MIN: Self = $t::MIN;
@@ -133,15 +133,15 @@ macro_rules! float_plane {
 
             $($clip)?
 
-            fn below(self) -> Self {
+            fn round_down(self) -> Self {
                 self - (self.abs() * (2.0 * $unit) + $least)
             }
 
-            fn above(self) -> Self {
+            fn round_up(self) -> Self {
                 self + (self.abs() * (2.0 * $unit) + $least)
             }
 
-            fn middle(self, other: Self) -> Self {
+            fn midpoint(self, other: Self) -> Self {
                 self * 0.5 + other * 0.5
             }
 
@@ -157,25 +157,25 @@ macro_rules! float_plane {
                 x * y * z
             }
 
-            fn sum(a: Self, b: Self) -> Self {
+            fn add_areas(a: Self, b: Self) -> Self {
                 a + b
             }
 
-            fn times(area: Self, count: u32) -> Self {
+            fn scale_area(area: Self, count: u32) -> Self {
                 area * count as Self
             }
 
-            fn minus(self, other: Self) -> Self {
+            fn difference(self, other: Self) -> Self {
                 self - other
             }
 
-            fn bin(self, low: Self, high: Self, bins: u32) -> u32 {
+            fn bin_index(self, low: Self, high: Self, bins: u32) -> u32 {
                 let position = (self - low) / (high - low) * bins as Self;
                 (position as u32).min(bins - 1)
             }
         }
 
-        impl Slope<$t> {
+        impl InvDirection<$t> {
             /// Of a direction's component.
             #[inline(always)]
             pub fn of(d: $t) -> Self {
@@ -197,25 +197,25 @@ macro_rules! float_plane {
     };
 }
 
-float_plane!(
+float_bound!(
     f32, unit: 1.0 / (1u64 << 24) as f32, least: 1.0 / (1u64 << 40) as f32,
     // The default loop does not become vector instructions by itself; the results are the same.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn clip(boxes: Faces<'_, Self>, origin: [Self; 3], slope: &[Slope<Self>; 3], limit: Self) -> ([Self; 8], u32) {
+    fn clip_boxes(boxes: SlabPlanes<'_, Self>, origin: [Self; 3], inv_direction: &[InvDirection<Self>; 3], limit: Self) -> ([Self; 8], u32) {
         use wide::f32x8;
         let (mut entry, mut exit) = (f32x8::splat(0.0), f32x8::splat(limit));
         for i in 0..3 {
             let o = f32x8::splat(origin[i]);
-            let near = (f32x8::new(*boxes.near[i]) - o) * f32x8::splat(slope[i].near);
-            let far = (f32x8::new(*boxes.far[i]) - o) * f32x8::splat(slope[i].far);
+            let near = (f32x8::new(*boxes.near[i]) - o) * f32x8::splat(inv_direction[i].near);
+            let far = (f32x8::new(*boxes.far[i]) - o) * f32x8::splat(inv_direction[i].far);
             entry = near.fast_max(entry);
             exit = far.fast_min(exit);
         }
         (entry.to_array(), entry.simd_le(exit).to_bitmask())
     }
 );
-float_plane!(f64, unit: 1.0 / (1u64 << 53) as f64, least: 1.0 / (1u64 << 60) as f64);
+float_bound!(f64, unit: 1.0 / (1u64 << 53) as f64, least: 1.0 / (1u64 << 60) as f64);
 
 /// A signed mantissa and a right shift.
 #[derive(Clone, Copy, Debug)]
@@ -224,9 +224,9 @@ pub struct Shifted<M> {
     shift: u8,
 }
 
-macro_rules! fixed_plane {
+macro_rules! fixed_bound {
     ($t:ident, $unsigned:ident, $wide:ident, area_shift: $down:expr) => {
-        impl Plane for $t {
+        impl BoundScalar for $t {
             const ZERO: Self = 0;
             const MAX: Self = $t::MAX;
             const MIN: Self = -$t::MAX;
@@ -247,15 +247,15 @@ macro_rules! fixed_plane {
                 }
             }
 
-            fn below(self) -> Self {
-                self.saturating_sub(4).max(Self::MIN)
+            fn round_down(self) -> Self {
+                Ord::max(self.saturating_sub(4), Self::MIN)
             }
 
-            fn above(self) -> Self {
+            fn round_up(self) -> Self {
                 self.saturating_add(4)
             }
 
-            fn middle(self, other: Self) -> Self {
+            fn midpoint(self, other: Self) -> Self {
                 (self >> 1) + (other >> 1)
             }
 
@@ -274,25 +274,25 @@ macro_rules! fixed_plane {
                 x * y * z
             }
 
-            fn sum(a: u64, b: u64) -> u64 {
+            fn add_areas(a: u64, b: u64) -> u64 {
                 a.saturating_add(b)
             }
 
-            fn times(area: u64, count: u32) -> u64 {
+            fn scale_area(area: u64, count: u32) -> u64 {
                 area.saturating_mul(u64::from(count))
             }
 
-            fn minus(self, other: Self) -> Self {
+            fn difference(self, other: Self) -> Self {
                 self.saturating_sub(other)
             }
 
-            fn bin(self, low: Self, high: Self, bins: u32) -> u32 {
+            fn bin_index(self, low: Self, high: Self, bins: u32) -> u32 {
                 let width = (high.wrapping_sub(low) as $unsigned) / bins as $unsigned + 1;
                 ((self.wrapping_sub(low) as $unsigned / width) as u32).min(bins - 1)
             }
         }
 
-        impl Slope<$t> {
+        impl InvDirection<$t> {
             /// Of a component with the given sign whose reciprocal is mantissa · 2^−shift, with a
             /// relative error below 2^−27; the mantissa has the component's sign.
             #[inline(always)]
@@ -314,5 +314,5 @@ macro_rules! fixed_plane {
     };
 }
 
-fixed_plane!(i32, u32, i64, area_shift: 12);
-fixed_plane!(i64, u64, i128, area_shift: 44);
+fixed_bound!(i32, u32, i64, area_shift: 12);
+fixed_bound!(i64, u64, i128, area_shift: 44);

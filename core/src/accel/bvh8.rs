@@ -3,21 +3,22 @@
 //! It takes the thesis's cluster box to its end: a node's children are not the octants of a cell
 //! but the groups into which surface area says its objects fall.
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary, WIDTH};
-use super::search::Search;
-use super::{Accelerator, Faces, Hit, Plane, Slope, Stack};
-use crate::needs::Needs;
+use super::build::{self, BuildError, BuildOptions, BuildStats, MAX_DEPTH, WIDTH};
+use super::query::Query;
+use super::{Accelerator, BoundScalar, Hit, InvDirection, SlabPlanes, TraversalStack};
+use crate::features::FeatureSet;
+use crate::object::ObjectRef;
 use crate::observe::Observer;
-use crate::ray::{Bounds, Ray};
+use crate::ray::{Aabb, Ray};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{ObjectRef, Shapes};
+use crate::shape::Shapes;
 use crate::vec3::Axis;
 
 /// An inner node: the boxes of its children, plane by plane, and what lies in them.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct Node<P> {
+pub struct Bvh8Node<P> {
     /// Low x, y, z, then high x, y, z of all eight. An empty place has an inverted box.
     planes: [[P; WIDTH]; 6],
     /// The children's words: see [`Word`].
@@ -33,7 +34,7 @@ impl Word {
     const NONE: u32 = u32::MAX;
 }
 
-impl<P: Plane> Node<P> {
+impl<P: BoundScalar> Bvh8Node<P> {
     /// A node without children.
     pub const EMPTY: Self = Self {
         planes: [
@@ -54,10 +55,10 @@ impl<P: Plane> Node<P> {
         node
     }
 
-    fn set(&mut self, child: usize, bounds: &Bounds<P>, word: u32) {
+    fn set(&mut self, child: usize, bounds: &Aabb<P>, word: u32) {
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
-            self.planes[i][child] = bounds.low[axis].below();
-            self.planes[i + 3][child] = bounds.high[axis].above();
+            self.planes[i][child] = bounds.low[axis].round_down();
+            self.planes[i + 3][child] = bounds.high[axis].round_up();
         }
         self.children[child] = word;
     }
@@ -65,35 +66,35 @@ impl<P: Plane> Node<P> {
 
 /// The memory a tree is built in, all of it lent.
 #[derive(Debug)]
-pub struct TightMemory<'a, P> {
+pub struct Bvh8Memory<'a, P> {
     /// Room for inner nodes; at least one. What does not fit stays unsplit.
-    pub nodes: &'a mut [Node<P>],
+    pub nodes: &'a mut [Bvh8Node<P>],
     /// One for each object.
     pub links: &'a mut [ObjectRef],
     /// One for each object; free again when the tree is built.
-    pub boxes: &'a mut [Bounds<P>],
+    pub boxes: &'a mut [Aabb<P>],
 }
 
 /// A finished tree.
 #[derive(Clone, Copy, Debug)]
-pub struct Tight<'a, P> {
+pub struct Bvh8<'a, P> {
     /// The nodes; the first is the root.
-    pub nodes: &'a [Node<P>],
+    pub nodes: &'a [Bvh8Node<P>],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
 }
 
-impl<'a, P: Plane> Tight<'a, P> {
+impl<'a, P: BoundScalar> Bvh8<'a, P> {
     /// Builds the tree of all shapes.
     ///
     /// # Errors
     /// If there is not one node, or not a link and a box for each object.
-    pub fn build<S: Scalar<Plane = P>>(
+    pub fn build<S: Scalar<Bound = P>>(
         shapes: &Shapes<'_, S>,
-        memory: TightMemory<'a, P>,
-        options: Options,
-    ) -> Result<(Self, Summary), BuildError> {
-        let TightMemory {
+        memory: Bvh8Memory<'a, P>,
+        options: BuildOptions,
+    ) -> Result<(Self, BuildStats), BuildError> {
+        let Bvh8Memory {
             nodes,
             links,
             boxes,
@@ -105,43 +106,43 @@ impl<'a, P: Plane> Tight<'a, P> {
         };
         let links = links.get_mut(..count).ok_or(too_small)?;
         let boxes = boxes.get_mut(..count).ok_or(too_small)?;
-        *nodes.first_mut().ok_or(too_small)? = Node::EMPTY;
+        *nodes.first_mut().ok_or(too_small)? = Bvh8Node::EMPTY;
         for ((link, bounds), object) in links.iter_mut().zip(&mut *boxes).zip(shapes.refs()) {
             *link = object;
-            *bounds = build::planes(shapes.bounds(object));
+            *bounds = build::to_bounds(shapes.bounds(object));
         }
-        let mut summary = Summary {
+        let mut stats = BuildStats {
             links: count as u32,
-            ..Summary::default()
+            ..BuildStats::default()
         };
         let used = if count == 0 {
             0
         } else {
-            grow(nodes, links, boxes, options, &mut summary)
+            grow(nodes, links, boxes, options, &mut stats)
         };
         Ok((
             Self {
                 nodes: nodes.get(..used).unwrap_or_default(),
                 links,
             },
-            summary,
+            stats,
         ))
     }
 }
 
 /// Splits breadth first. A node that waits holds its range of objects and its depth in the words
 /// of its children, so that no other memory is needed. Returns how many nodes there are.
-fn grow<P: Plane>(
-    nodes: &mut [Node<P>],
+fn grow<P: BoundScalar>(
+    nodes: &mut [Bvh8Node<P>],
     links: &mut [ObjectRef],
-    boxes: &mut [Bounds<P>],
-    options: Options,
-    summary: &mut Summary,
+    boxes: &mut [Aabb<P>],
+    options: BuildOptions,
+    stats: &mut BuildStats,
 ) -> usize {
     let leaf_size = options.leaf_size.max(1) as usize;
     let deepest = options.depth.clamp(1, MAX_DEPTH);
     if let Some(root) = nodes.first_mut() {
-        *root = Node::waiting(0, links.len(), 1);
+        *root = Bvh8Node::waiting(0, links.len(), 1);
     }
     let (mut done, mut used) = (0, 1);
     while done < used {
@@ -149,20 +150,21 @@ fn grow<P: Plane>(
             break;
         };
         let [start, end, depth, ..] = waiting.children;
-        summary.inner += 1;
-        summary.depth = summary.depth.max(depth);
-        let mut node = Node::EMPTY;
-        let (groups, count) = build::split(start as usize, end as usize, links, boxes, leaf_size);
+        stats.inner += 1;
+        stats.depth = stats.depth.max(depth);
+        let mut node = Bvh8Node::EMPTY;
+        let (groups, count) =
+            build::split_into_groups(start as usize, end as usize, links, boxes, leaf_size);
         for (child, group) in groups.iter().enumerate().take(count) {
             let fits = group.len() <= leaf_size;
             let room = nodes.get_mut(used).filter(|_| !fits && depth < deepest);
             let word = if let Some(room) = room {
-                *room = Node::waiting(group.start, group.end, depth + 1);
+                *room = Bvh8Node::waiting(group.start, group.end, depth + 1);
                 used += 1;
                 used as u32 - 1
             } else {
-                summary.leaves += 1;
-                summary.unsplit += u32::from(!fits && depth < deepest);
+                stats.leaves += 1;
+                stats.unsplit += u32::from(!fits && depth < deepest);
                 if let Some(last) = links.get_mut(group.end.wrapping_sub(1)) {
                     *last = last.marked_last(true);
                 }
@@ -179,60 +181,71 @@ fn grow<P: Plane>(
 }
 
 /// The ray as the walk wants it.
-struct Walk<P: Plane> {
+struct Walk<P: BoundScalar> {
     origin: [P; 3],
-    slope: [Slope<P>; 3],
+    inv_direction: [InvDirection<P>; 3],
     /// Which planes of a node are met first and last on each axis.
     near: [usize; 3],
     far: [usize; 3],
 }
 
-impl<P: Plane> Walk<P> {
+impl<P: BoundScalar> Walk<P> {
     #[inline(always)]
-    fn new<S: Scalar<Plane = P>>(ray: &Ray<S>) -> Self {
-        let origin = ray.origin.to_array().map(S::plane);
-        let slope = ray.direction.to_array().map(S::slope);
+    fn new<S: Scalar<Bound = P>>(ray: &Ray<S>) -> Self {
+        let origin = ray.origin.to_array().map(S::to_bound);
+        let inv_direction = ray.direction.to_array().map(S::inv_direction);
         let pick = |flip: bool| {
-            [0, 1, 2].map(|i: usize| if slope[i].negative == flip { i } else { i + 3 })
+            [0, 1, 2].map(|i: usize| {
+                if inv_direction[i].negative == flip {
+                    i
+                } else {
+                    i + 3
+                }
+            })
         };
         Self {
             origin,
             near: pick(false),
             far: pick(true),
-            slope,
+            inv_direction,
         }
     }
 
     #[inline(always)]
-    fn faces<'n>(&self, node: &'n Node<P>) -> Faces<'n, P> {
-        Faces {
+    fn slab_planes<'n>(&self, node: &'n Bvh8Node<P>) -> SlabPlanes<'n, P> {
+        SlabPlanes {
             near: self.near.map(|i| &node.planes[i]),
             far: self.far.map(|i| &node.planes[i]),
         }
     }
 }
 
-impl<P: Plane> Tight<'_, P> {
+impl<P: BoundScalar> Bvh8<'_, P> {
     /// Children are visited in the order in which the ray enters them; a search for any hit takes
     /// them as they come.
     ///
     /// The child entered first is gone on with directly, only the others go through the stack; its
     /// places are counted in a `u8`, which cannot leave its 256, so that no access is checked.
     #[inline(always)]
-    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool, const NEEDS: Needs>(
+    fn walk<S: Scalar<Bound = P>, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
         &self,
-        search: &mut Search<'_, S, O, ANY, NEEDS>,
-        stack: &mut Stack<P>,
+        query: &mut Query<'_, S, O, ANY, FEATURES>,
+        stack: &mut TraversalStack<P>,
     ) {
         let Some(mut node) = self.nodes.first() else {
             return;
         };
-        let walk = Walk::new(search.ray);
+        let walk = Walk::new(query.ray);
         let mut waiting = 0u8;
         loop {
-            search.observer.step(WIDTH);
-            let limit = search.limit.plane();
-            let (entry, mut met) = P::clip(walk.faces(node), walk.origin, &walk.slope, limit);
+            query.observer.step(WIDTH);
+            let limit = query.limit.to_bound();
+            let (entry, mut met) = P::clip_boxes(
+                walk.slab_planes(node),
+                walk.origin,
+                &walk.inv_direction,
+                limit,
+            );
             let mut next = None;
             if met != 0 {
                 let mut child = || {
@@ -266,7 +279,7 @@ impl<P: Plane> Tight<'_, P> {
                     None => {
                         waiting -= 1;
                         let (word, entry) = stack.0[usize::from(waiting)];
-                        if !ANY && entry > search.limit.plane() {
+                        if !ANY && entry > query.limit.to_bound() {
                             continue;
                         }
                         word
@@ -279,7 +292,7 @@ impl<P: Plane> Tight<'_, P> {
                     }
                 }
                 let start = (word & !Word::LEAF) as usize;
-                if search.list(self.links.get(start..).unwrap_or(&[])) {
+                if query.test_list(self.links.get(start..).unwrap_or(&[])) {
                     return;
                 }
             };
@@ -287,34 +300,34 @@ impl<P: Plane> Tight<'_, P> {
     }
 }
 
-impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Tight<'_, S::Plane> {
-    type Stack = Stack<S::Plane>;
+impl<S: Scalar, const FEATURES: FeatureSet> Accelerator<S, FEATURES> for Bvh8<'_, S::Bound> {
+    type Stack = TraversalStack<S::Bound>;
 
     // One copy of the walk per use: inlined into the tracer it would not fit the code cache.
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut TraversalStack<S::Bound>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
-        self.walk(&mut search, stack);
-        search.hit()
+        let mut query = Query::<_, _, false, FEATURES>::new(scene, ray, scene.diameter, observer);
+        self.walk(&mut query, stack);
+        query.hit()
     }
 
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut TraversalStack<S::Bound>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
-        self.walk(&mut search, stack);
-        search.found
+        let mut query = Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+        self.walk(&mut query, stack);
+        query.found
     }
 }

@@ -1,16 +1,16 @@
 //! What every tree does with the objects it comes to.
 
 use super::Hit;
-use crate::needs::Needs;
+use crate::features::FeatureSet;
+use crate::object::ObjectRef;
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::ObjectRef;
 
 /// A search for the first object a ray meets, or with `ANY` for any object nearer than the limit.
-pub(super) struct Search<'a, S: Scalar, O, const ANY: bool, const NEEDS: Needs> {
-    pub(super) scene: &'a Scene<'a, S, NEEDS>,
+pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: FeatureSet> {
+    pub(super) scene: &'a Scene<'a, S, FEATURES>,
     pub(super) ray: &'a Ray<S>,
     /// Nothing beyond this distance matters any more.
     pub(super) limit: S,
@@ -18,10 +18,12 @@ pub(super) struct Search<'a, S: Scalar, O, const ANY: bool, const NEEDS: Needs> 
     pub(super) observer: &'a mut O,
 }
 
-impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a, S, O, ANY, NEEDS> {
+impl<'a, S: Scalar, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
+    Query<'a, S, O, ANY, FEATURES>
+{
     #[inline(always)]
     pub(super) fn new(
-        scene: &'a Scene<'a, S, NEEDS>,
+        scene: &'a Scene<'a, S, FEATURES>,
         ray: &'a Ray<S>,
         limit: S,
         observer: &'a mut O,
@@ -35,9 +37,9 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
         }
     }
 
-    /// Tests the objects of a list up to the marked one. True if the search is over.
+    /// Tests the objects of a list up to the marked one. True if the query is over.
     #[inline(always)]
-    pub(super) fn list(&mut self, links: &[ObjectRef]) -> bool {
+    pub(super) fn test_list(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
             let shapes = &self.scene.shapes;
             let hit = shapes.hit(object, self.ray, self.limit, self.observer);
@@ -72,8 +74,8 @@ impl<'a, S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs> Search<'a,
 /// Whether an object at the very distance of the one found comes before it in the scene file.
 #[cold]
 #[inline(never)]
-fn precedes<S: Scalar, const NEEDS: Needs>(
-    scene: &Scene<'_, S, NEEDS>,
+fn precedes<S: Scalar, const FEATURES: FeatureSet>(
+    scene: &Scene<'_, S, FEATURES>,
     object: ObjectRef,
     found: ObjectRef,
 ) -> bool {

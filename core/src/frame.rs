@@ -1,9 +1,9 @@
 //! A picture and its parts: which pixels are worth a ray, and the rows that one thread renders.
 
+use crate::accel::Accelerator;
 use crate::camera::Camera;
-use crate::needs::Needs;
+use crate::features::FeatureSet;
 use crate::observe::Observer;
-use crate::octree::Accelerator;
 use crate::scalar::Scalar;
 use crate::trace::{Tracer, Workspace};
 use crate::vec3::{Vec3, vec3};
@@ -20,11 +20,11 @@ pub struct Region {
 
 /// A picture to be rendered.
 #[derive(Clone, Debug)]
-pub struct Frame<S: Scalar>(Parts<S>);
+pub struct Frame<S: Scalar>(FrameParams<S>);
 
-/// What a [`Frame`] consists of, to be written down and read back.
+/// What a [`Frame`] consists of, to be written inv_height and read back.
 #[derive(Clone, Debug)]
-pub struct Parts<S: Scalar> {
+pub struct FrameParams<S: Scalar> {
     /// Where rays start.
     pub camera: Camera<S>,
     /// The pixels that rays are sent through.
@@ -38,11 +38,11 @@ pub struct Parts<S: Scalar> {
     /// Rows, 1 to 65535.
     pub height: u32,
     /// The reciprocal of samples · width.
-    pub across: S::Reciprocal,
+    pub inv_width: S::Reciprocal,
     /// The reciprocal of samples · height.
-    pub down: S::Reciprocal,
+    pub inv_height: S::Reciprocal,
     /// The weight of one of the samples, 1/samples².
-    pub share: S,
+    pub sample_weight: S,
 }
 
 impl<S: Scalar> Frame<S> {
@@ -62,7 +62,7 @@ impl<S: Scalar> Frame<S> {
         let (width, height) = (width.clamp(1, 65_535), height.clamp(1, 65_535));
         let samples = samples.clamp(1, 255);
         let whole = S::whole_reciprocal(samples * samples);
-        Self(Parts {
+        Self(FrameParams {
             camera,
             active: Region {
                 columns: active.columns.start..active.columns.end.min(width),
@@ -72,19 +72,19 @@ impl<S: Scalar> Frame<S> {
             samples,
             width,
             height,
-            across: S::whole_reciprocal(samples * width),
-            down: S::whole_reciprocal(samples * height),
-            share: S::ratio(1, whole),
+            inv_width: S::whole_reciprocal(samples * width),
+            inv_height: S::whole_reciprocal(samples * height),
+            sample_weight: S::ratio(1, whole),
         })
     }
 
-    /// The picture that [`Frame::parts`] came from.
-    pub const fn from_parts(parts: Parts<S>) -> Self {
-        Self(parts)
+    /// The picture that [`Frame::params`] came from.
+    pub const fn from_params(params: FrameParams<S>) -> Self {
+        Self(params)
     }
 
     /// All there is to know of it.
-    pub const fn parts(&self) -> &Parts<S> {
+    pub const fn params(&self) -> &FrameParams<S> {
         &self.0
     }
 
@@ -100,25 +100,25 @@ impl<S: Scalar> Frame<S> {
 
     /// Renders the active pixels of some rows, and hands each to `put` with its column, its row
     /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
-    pub fn render<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+    pub fn render<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
         &self,
         rows: Range<u32>,
-        tracer: &Tracer<'_, S, A, NEEDS>,
+        tracer: &Tracer<'_, S, A, FEATURES>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
         put: impl FnMut(u32, u32, Vec3<S>),
     ) {
-        workspace.forget();
+        workspace.clear_shadow_cache();
         let columns = self.0.active.columns.clone();
         self.render_region(&Region { columns, rows }, tracer, workspace, observer, put);
     }
 
     /// The same for a rectangle of pixels; what blocked the lights last is not forgotten first.
     /// Blocks that begin above the rectangle or to its left are not rendered.
-    pub fn render_region<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+    pub fn render_region<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
         &self,
         region: &Region,
-        tracer: &Tracer<'_, S, A, NEEDS>,
+        tracer: &Tracer<'_, S, A, FEATURES>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
         mut put: impl FnMut(u32, u32, Vec3<S>),
@@ -131,11 +131,11 @@ impl<S: Scalar> Frame<S> {
         let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
         let mut row = first(&rows);
         while row < rows.end {
-            let line = self.0.camera.row(self.height(row, 0));
+            let line = self.0.camera.row(self.sample_y(row, 0));
             let mut column = first(&columns);
             while column < columns.end {
                 let colour = if self.0.samples == 1 {
-                    let ray = line.ray(self.aside(column, 0));
+                    let ray = line.ray(self.sample_x(column, 0));
                     tracer.radiance(ray, workspace, observer)
                 } else {
                     self.average(column, row, tracer, workspace, observer)
@@ -153,21 +153,21 @@ impl<S: Scalar> Frame<S> {
 
     /// The mean colour of the samples of the block whose upper left pixel is given.
     #[inline(never)]
-    fn average<A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
+    fn average<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
         &self,
         column: u32,
         row: u32,
-        tracer: &Tracer<'_, S, A, NEEDS>,
+        tracer: &Tracer<'_, S, A, FEATURES>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         observer: &mut O,
     ) -> Vec3<S> {
         let mut sum = Vec3::ZERO;
         for sub_row in 0..self.0.samples {
-            let line = self.0.camera.row(self.height(row, sub_row));
+            let line = self.0.camera.row(self.sample_y(row, sub_row));
             for sub_column in 0..self.0.samples {
-                let ray = line.ray(self.aside(column, sub_column));
+                let ray = line.ray(self.sample_x(column, sub_column));
                 let colour = tracer.radiance(ray, workspace, observer);
-                sum = sum + clamp(colour) * self.0.share;
+                sum = sum + clamp(colour) * self.0.sample_weight;
             }
         }
         sum
@@ -175,27 +175,30 @@ impl<S: Scalar> Frame<S> {
 
     /// Where in the camera's picture a sample lies, from −1 to 1.
     #[inline(always)]
-    pub fn place(&self, column: u32, row: u32, sub_column: u32, sub_row: u32) -> (S, S) {
-        (self.aside(column, sub_column), self.height(row, sub_row))
+    pub fn sample_position(&self, column: u32, row: u32, sub_column: u32, sub_row: u32) -> (S, S) {
+        (
+            self.sample_x(column, sub_column),
+            self.sample_y(row, sub_row),
+        )
     }
 
     #[inline(always)]
-    fn aside(&self, column: u32, sub: u32) -> S {
+    fn sample_x(&self, column: u32, sub: u32) -> S {
         let width = self.0.samples * self.0.width;
-        let x = self.middle(column, sub) as i32 - width as i32;
-        S::ratio(x, self.0.across)
+        let x = self.sample_centre(column, sub) as i32 - width as i32;
+        S::ratio(x, self.0.inv_width)
     }
 
     #[inline(always)]
-    fn height(&self, row: u32, sub: u32) -> S {
+    fn sample_y(&self, row: u32, sub: u32) -> S {
         let height = self.0.samples * self.0.height;
-        let y = height as i32 - self.middle(row, sub) as i32;
-        S::ratio(y, self.0.down)
+        let y = height as i32 - self.sample_centre(row, sub) as i32;
+        S::ratio(y, self.0.inv_height)
     }
 
     /// The middle of a sample in units of a 2·samples-th of a pixel, from the upper left corner.
     #[inline(always)]
-    fn middle(&self, start: u32, sub: u32) -> u32 {
+    fn sample_centre(&self, start: u32, sub: u32) -> u32 {
         2 * self.0.samples * start + self.0.block * (2 * sub + 1)
     }
 

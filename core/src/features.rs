@@ -2,44 +2,44 @@
 //! scene does not have is then not in the machine code.
 //!
 //! [`Scene`](crate::scene::Scene) and [`Shapes`](crate::shape::Shapes) carry it as a parameter. It
-//! is [`EVERYTHING`] unless somebody who knows the scene, as whoever bakes one into flash does,
+//! is [`ALL_FEATURES`] unless somebody who knows the scene, as whoever bakes one into flash does,
 //! says less. What is left out is treated as absent, whatever the scene holds.
 
-use crate::shape::Kind;
+use crate::object::ObjectKind;
 
 /// A set of the constants below.
-pub type Needs = u32;
+pub type FeatureSet = u32;
 
 /// [`Shapes::spheres`](crate::shape::Shapes::spheres).
-pub const SPHERES: Needs = of_kind(Kind::Sphere);
+pub const SPHERES: FeatureSet = of_kind(ObjectKind::Sphere);
 /// [`Shapes::triangles`](crate::shape::Shapes::triangles).
-pub const TRIANGLES: Needs = of_kind(Kind::Triangle);
+pub const TRIANGLES: FeatureSet = of_kind(ObjectKind::Triangle);
 /// [`Shapes::polygons`](crate::shape::Shapes::polygons).
-pub const POLYGONS: Needs = of_kind(Kind::Polygon);
+pub const POLYGONS: FeatureSet = of_kind(ObjectKind::Polygon);
 /// [`Shapes::cones`](crate::shape::Shapes::cones).
-pub const CONES: Needs = of_kind(Kind::Cone);
+pub const CONES: FeatureSet = of_kind(ObjectKind::Cone);
 /// [`Shapes::cuboids`](crate::shape::Shapes::cuboids).
-pub const CUBOIDS: Needs = of_kind(Kind::Cuboid);
+pub const CUBOIDS: FeatureSet = of_kind(ObjectKind::Cuboid);
 /// Polygons of so many edges that they are cut into bands.
-pub const BANDS: Needs = 1 << 5;
+pub const BANDS: FeatureSet = 1 << 5;
 /// Patches: shading normals that vary over a flat shape.
-pub const PATCHES: Needs = 1 << 6;
+pub const PATCHES: FeatureSet = 1 << 6;
 /// Lights, and the shadow rays to them.
-pub const SHADOWS: Needs = 1 << 7;
+pub const SHADOWS: FeatureSet = 1 << 7;
 /// Specular light.
-pub const SPECULAR: Needs = 1 << 8;
+pub const SPECULAR: FeatureSet = 1 << 8;
 /// Shininess that is not a whole number.
-pub const FRACTIONS: Needs = 1 << 9;
+pub const FRACTIONS: FeatureSet = 1 << 9;
 /// Reflected rays.
-pub const REFLECTION: Needs = 1 << 10;
+pub const REFLECTION: FeatureSet = 1 << 10;
 /// Transmitted rays.
-pub const REFRACTION: Needs = 1 << 11;
+pub const REFRACTION: FeatureSet = 1 << 11;
 
 /// All of it: for whoever does not know the scene beforehand.
-pub const EVERYTHING: Needs = (1 << 12) - 1;
+pub const ALL_FEATURES: FeatureSet = (1 << 12) - 1;
 
 /// Names and values, for whoever writes or reads a set.
-pub const NAMES: [(&str, Needs); 12] = [
+pub const NAMES: [(&str, FeatureSet); 12] = [
     ("SPHERES", SPHERES),
     ("TRIANGLES", TRIANGLES),
     ("POLYGONS", POLYGONS),
@@ -55,12 +55,12 @@ pub const NAMES: [(&str, Needs); 12] = [
 ];
 
 /// The shapes of one kind.
-pub const fn of_kind(kind: Kind) -> Needs {
+pub const fn of_kind(kind: ObjectKind) -> FeatureSet {
     1 << kind as u32
 }
 
 /// Whether a set holds what is asked for.
 #[inline(always)]
-pub const fn needs(set: Needs, what: Needs) -> bool {
+pub const fn contains(set: FeatureSet, what: FeatureSet) -> bool {
     set & what != 0
 }

@@ -2,21 +2,22 @@
 //! into eight octants, and the *modified* one (figure 12), which merges and shrinks cells.
 //! Objects are linked into every leaf that they touch.
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
-use super::search::Search;
-use super::touch::touches;
-use super::{Accelerator, Hit, Plane, Slope, Stack};
-use crate::needs::Needs;
+use super::build::{self, BuildError, BuildOptions, BuildStats, MAX_DEPTH};
+use super::overlap::overlaps;
+use super::query::Query;
+use super::{Accelerator, BoundScalar, Hit, InvDirection, TraversalStack};
+use crate::features::FeatureSet;
+use crate::object::ObjectRef;
 use crate::observe::Observer;
-use crate::ray::{Bounds, Ray};
+use crate::ray::{Aabb, Ray};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{ObjectRef, Shapes};
+use crate::shape::Shapes;
 use crate::vec3::Axis;
 
 /// Which of the thesis's trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variant {
+pub enum OctreeVariant {
     /// Every inner cell has its eight octants, empty ones included.
     Plain,
     /// An octant whose three neighbours in the same half of the cell are empty is merged with
@@ -27,7 +28,7 @@ pub enum Variant {
 
 /// When an object is linked into a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Link {
+pub enum LinkBy {
     /// When its bounding box meets the cell.
     Box,
     /// When its surface does.
@@ -37,8 +38,8 @@ pub enum Link {
 /// A cell: a leaf with objects, an empty leaf, or an inner node with up to eight parts.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct Octant<P> {
-    bounds: Bounds<P>,
+pub struct OctreeNode<P> {
+    bounds: Aabb<P>,
     /// The first part's place among the nodes, or the first object's among the links.
     first: u32,
     /// How many parts or objects; `LEAF` tells which.
@@ -47,10 +48,10 @@ pub struct Octant<P> {
 
 const LEAF: u32 = 1 << 31;
 
-impl<P: Plane> Octant<P> {
+impl<P: BoundScalar> OctreeNode<P> {
     /// An empty leaf without extent.
     pub const EMPTY: Self = Self {
-        bounds: Bounds {
+        bounds: Aabb {
             low: crate::vec3::vec3(P::MAX, P::MAX, P::MAX),
             high: crate::vec3::vec3(P::MIN, P::MIN, P::MIN),
         },
@@ -72,39 +73,39 @@ impl<P: Plane> Octant<P> {
 
 /// A finished octree.
 #[derive(Clone, Copy, Debug)]
-pub struct Octants<'a, P> {
+pub struct Octree<'a, P> {
     /// The cells; the first is the root, parts of a cell are contiguous.
-    pub nodes: &'a [Octant<P>],
+    pub nodes: &'a [OctreeNode<P>],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
 }
 
-impl<'a, P: Plane> Octants<'a, P> {
+impl<'a, P: BoundScalar> Octree<'a, P> {
     /// Builds the octree of all shapes in lent nodes and links. A leaf that should be split but
     /// for which there is no room stays as it is.
     ///
     /// # Errors
     /// If there is not one node, or not one link for each object.
-    pub fn build<S: Scalar<Plane = P>>(
+    pub fn build<S: Scalar<Bound = P>>(
         shapes: &Shapes<'_, S>,
-        nodes: &'a mut [Octant<P>],
+        nodes: &'a mut [OctreeNode<P>],
         links: &'a mut [ObjectRef],
-        options: Options,
-        variant: Variant,
-        link: Link,
-    ) -> Result<(Self, Summary), BuildError> {
+        options: BuildOptions,
+        variant: OctreeVariant,
+        link: LinkBy,
+    ) -> Result<(Self, BuildStats), BuildError> {
         let count = shapes.len();
         let too_small = BuildError {
             nodes: 1,
             links: count,
         };
-        let mut bounds = build::nothing();
+        let mut bounds = build::empty_box();
         let all = links.get_mut(..count).ok_or(too_small)?;
         for (link, object) in all.iter_mut().zip(shapes.refs()) {
             *link = object;
-            bounds = build::union(bounds, build::planes(shapes.bounds(object)));
+            bounds = build::union(bounds, build::to_bounds(shapes.bounds(object)));
         }
-        *nodes.first_mut().ok_or(too_small)? = Octant {
+        *nodes.first_mut().ok_or(too_small)? = OctreeNode {
             bounds,
             first: 0,
             count: LEAF | count as u32,
@@ -119,13 +120,13 @@ impl<'a, P: Plane> Octants<'a, P> {
             variant,
             link,
         };
-        let mut summary = builder.grow(options.depth.clamp(1, MAX_DEPTH));
+        let mut stats = builder.grow(options.depth.clamp(1, MAX_DEPTH));
         let (used_nodes, used_links) = (builder.used_nodes, builder.used_links);
         let nodes = nodes.get(..used_nodes).unwrap_or_default();
         let links = links.get_mut(..used_links).unwrap_or_default();
         for node in nodes.iter().filter(|node| node.is_leaf()) {
-            summary.leaves += 1;
-            summary.links += node.count();
+            stats.leaves += 1;
+            stats.links += node.count();
             let last = (node.first + node.count()).wrapping_sub(1);
             if node.count() > 0
                 && let Some(last) = links.get_mut(last as usize)
@@ -133,25 +134,25 @@ impl<'a, P: Plane> Octants<'a, P> {
                 *last = last.marked_last(true);
             }
         }
-        Ok((Self { nodes, links }, summary))
+        Ok((Self { nodes, links }, stats))
     }
 }
 
 struct Builder<'b, 's, S: Scalar> {
     shapes: &'b Shapes<'s, S>,
-    nodes: &'b mut [Octant<S::Plane>],
+    nodes: &'b mut [OctreeNode<S::Bound>],
     links: &'b mut [ObjectRef],
     used_nodes: usize,
     used_links: usize,
     leaf_size: u32,
-    variant: Variant,
-    link: Link,
+    variant: OctreeVariant,
+    link: LinkBy,
 }
 
 impl<S: Scalar> Builder<'_, '_, S> {
     /// Splits breadth first, level by level.
-    fn grow(&mut self, deepest: u32) -> Summary {
-        let mut summary = Summary::default();
+    fn grow(&mut self, deepest: u32) -> BuildStats {
+        let mut stats = BuildStats::default();
         let (mut done, mut depth) = (0, 1);
         while done < self.used_nodes && depth <= deepest {
             let level_end = self.used_nodes;
@@ -163,17 +164,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
                     continue;
                 }
                 let cell = match self.variant {
-                    Variant::Plain => cell,
-                    Variant::Modified => self.shrink(cell),
+                    OctreeVariant::Plain => cell,
+                    OctreeVariant::Modified => self.shrink(cell),
                 };
                 let (cell, split) = self.split(cell);
                 match split {
                     Split::Done => {
-                        summary.inner += 1;
-                        summary.depth = depth;
+                        stats.inner += 1;
+                        stats.depth = depth;
                     }
                     Split::Futile => {}
-                    Split::Full => summary.unsplit += 1,
+                    Split::Full => stats.unsplit += 1,
                 }
                 if let Some(place) = self.nodes.get_mut(node) {
                     *place = cell;
@@ -182,11 +183,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
             done = level_end;
             depth += 1;
         }
-        summary
+        stats
     }
 
     /// The objects of a leaf.
-    fn objects(&self, cell: &Octant<S::Plane>) -> &[ObjectRef] {
+    fn objects(&self, cell: &OctreeNode<S::Bound>) -> &[ObjectRef] {
         let start = cell.first as usize;
         let end = start + cell.count() as usize;
         self.links.get(start..end).unwrap_or_default()
@@ -194,27 +195,27 @@ impl<S: Scalar> Builder<'_, '_, S> {
 
     /// The cluster box: a cell whose objects' box, cut to the cell, fills less than half of it
     /// becomes that box.
-    fn shrink(&self, mut cell: Octant<S::Plane>) -> Octant<S::Plane> {
-        let mut cluster = build::nothing();
+    fn shrink(&self, mut cell: OctreeNode<S::Bound>) -> OctreeNode<S::Bound> {
+        let mut cluster = build::empty_box();
         for &object in self.objects(&cell) {
-            cluster = build::union(cluster, build::planes(self.shapes.bounds(object)));
+            cluster = build::union(cluster, build::to_bounds(self.shapes.bounds(object)));
         }
         for axis in Axis::ALL {
-            cluster.low[axis] = cluster.low[axis].upper(cell.bounds.low[axis]);
-            cluster.high[axis] = cluster.high[axis].lower(cell.bounds.high[axis]);
+            cluster.low[axis] = cluster.low[axis].max(cell.bounds.low[axis]);
+            cluster.high[axis] = cluster.high[axis].min(cell.bounds.high[axis]);
         }
-        type P<S> = <S as Scalar>::Plane;
-        let volume = P::<S>::volume(build::sides(&cluster));
-        if P::<S>::sum(volume, volume) < P::<S>::volume(build::sides(&cell.bounds)) {
+        type P<S> = <S as Scalar>::Bound;
+        let volume = P::<S>::volume(build::side_lengths(&cluster));
+        if P::<S>::add_areas(volume, volume) < P::<S>::volume(build::side_lengths(&cell.bounds)) {
             cell.bounds = cluster;
         }
         cell
     }
 
     /// Makes a leaf an inner node, if possible.
-    fn split(&mut self, cell: Octant<S::Plane>) -> (Octant<S::Plane>, Split) {
-        let centre = build::middle(&cell.bounds);
-        let mut cells = [Octant::EMPTY; 8];
+    fn split(&mut self, cell: OctreeNode<S::Bound>) -> (OctreeNode<S::Bound>, Split) {
+        let centre = build::centroid(&cell.bounds);
+        let mut cells = [OctreeNode::EMPTY; 8];
         for (k, octant) in cells.iter_mut().enumerate() {
             octant.bounds = cell.bounds;
             for (i, axis) in Axis::ALL.into_iter().enumerate() {
@@ -233,8 +234,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             }
         }
         let mut parts = 8;
-        if self.variant == Variant::Modified {
-            let all = |octant: &&Octant<S::Plane>| octant.count == cell.count;
+        if self.variant == OctreeVariant::Modified {
+            let all = |octant: &&OctreeNode<S::Bound>| octant.count == cell.count;
             let some = cells.iter().filter(|octant| octant.count() > 0);
             if some.clone().all(|octant| all(&octant)) && some.count() > 1 {
                 self.used_links = before;
@@ -250,7 +251,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         for (place, octant) in room.iter_mut().zip(cells) {
             *place = octant;
         }
-        let inner = Octant {
+        let inner = OctreeNode {
             first: self.used_nodes as u32,
             count: parts as u32,
             ..cell
@@ -260,13 +261,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     /// Links into an octant those of its cell's objects that touch it. False if there is no room.
-    fn distribute(&mut self, cell: &Octant<S::Plane>, octant: &mut Octant<S::Plane>) -> bool {
+    fn distribute(
+        &mut self,
+        cell: &OctreeNode<S::Bound>,
+        octant: &mut OctreeNode<S::Bound>,
+    ) -> bool {
         octant.first = self.used_links as u32;
         for i in 0..cell.count() {
             let Some(&object) = self.links.get((cell.first + i) as usize) else {
                 break;
             };
-            if touches(self.shapes, object, &octant.bounds, self.link) {
+            if overlaps(self.shapes, object, &octant.bounds, self.link) {
                 let Some(place) = self.links.get_mut(self.used_links) else {
                     return false;
                 };
@@ -290,7 +295,7 @@ enum Split {
 /// Merges, in each half of a cell in which one octant alone holds objects, that octant with the
 /// three empty ones; the first axis along which a half qualifies is taken. Returns how many cells
 /// are left; they come first.
-fn merge<P: Plane>(cells: &mut [Octant<P>; 8]) -> usize {
+fn merge<P: BoundScalar>(cells: &mut [OctreeNode<P>; 8]) -> usize {
     for bit in 0..3 {
         let half =
             |side: usize| (cells.iter().enumerate()).filter(move |(k, _)| k >> bit & 1 == side);
@@ -298,17 +303,17 @@ fn merge<P: Plane>(cells: &mut [Octant<P>; 8]) -> usize {
         if !lone(0) && !lone(1) {
             continue;
         }
-        let mut merged = [Octant::EMPTY; 8];
+        let mut merged = [OctreeNode::EMPTY; 8];
         let mut places = merged.iter_mut();
         let mut parts = 0;
         for side in 0..2 {
             if lone(side) {
                 let holder = half(side).find(|(_, octant)| octant.count() > 0);
-                let all = half(side).fold(build::nothing(), |a, (_, octant)| {
+                let all = half(side).fold(build::empty_box(), |a, (_, octant)| {
                     build::union(a, octant.bounds)
                 });
                 if let Some(place) = places.next() {
-                    *place = holder.map_or(Octant::EMPTY, |(_, octant)| *octant);
+                    *place = holder.map_or(OctreeNode::EMPTY, |(_, octant)| *octant);
                     place.bounds = all;
                     parts += 1;
                 }
@@ -325,57 +330,57 @@ fn merge<P: Plane>(cells: &mut [Octant<P>; 8]) -> usize {
     8
 }
 
-impl<P: Plane> Octants<'_, P> {
+impl<P: BoundScalar> Octree<'_, P> {
     /// Cells are visited in the order in which the ray enters them.
     #[inline(always)]
-    fn walk<S: Scalar<Plane = P>, O: Observer, const ANY: bool, const NEEDS: Needs>(
+    fn walk<S: Scalar<Bound = P>, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
         &self,
-        search: &mut Search<'_, S, O, ANY, NEEDS>,
-        stack: &mut Stack<P>,
+        query: &mut Query<'_, S, O, ANY, FEATURES>,
+        stack: &mut TraversalStack<P>,
     ) {
-        let origin = search.ray.origin.map(S::plane);
-        let slope = search.ray.direction.map(S::slope);
-        let enter = |node: &Octant<P>, limit: P| {
+        let origin = query.ray.origin.map(S::to_bound);
+        let inv_direction = query.ray.direction.map(S::inv_direction);
+        let enter = |node: &OctreeNode<P>, limit: P| {
             let (mut entry, mut exit) = (P::ZERO, limit);
             for axis in Axis::ALL {
-                let Slope {
+                let InvDirection {
                     negative,
                     near,
                     far,
-                } = slope[axis];
+                } = inv_direction[axis];
                 let (low, high) = (
-                    node.bounds.low[axis].below(),
-                    node.bounds.high[axis].above(),
+                    node.bounds.low[axis].round_down(),
+                    node.bounds.high[axis].round_up(),
                 );
                 let (first, last) = if negative { (high, low) } else { (low, high) };
-                entry = entry.upper(first.distance(origin[axis], near));
-                exit = exit.lower(last.distance(origin[axis], far));
+                entry = entry.max(first.distance(origin[axis], near));
+                exit = exit.min(last.distance(origin[axis], far));
             }
             (entry <= exit).then_some(entry)
         };
         let Some(root) = self.nodes.first() else {
             return;
         };
-        if enter(root, search.limit.plane()).is_none() {
+        if enter(root, query.limit.to_bound()).is_none() {
             return;
         }
         stack.0[0] = (0, P::ZERO);
-        // At most seven parts of each level wait: a `u8` counts them, see `STACK`.
+        // At most seven parts of each level wait: a `u8` counts them, see `STACK_SIZE`.
         let mut waiting = 1u8;
         while waiting > 0 {
             waiting -= 1;
             let (place, entry) = stack.0[usize::from(waiting)];
-            if entry > search.limit.plane() {
+            if entry > query.limit.to_bound() {
                 continue;
             }
             let Some(node) = self.nodes.get(place as usize) else {
                 continue;
             };
-            search.observer.step(1);
+            query.observer.step(1);
             let start = node.first as usize;
             let end = start + node.count() as usize;
             if node.is_leaf() {
-                if search.list(self.links.get(start..end).unwrap_or_default()) {
+                if query.test_list(self.links.get(start..end).unwrap_or_default()) {
                     return;
                 }
                 continue;
@@ -383,7 +388,7 @@ impl<P: Plane> Octants<'_, P> {
             let base = waiting;
             let parts = self.nodes.get(start..end).unwrap_or_default();
             for (part, place) in parts.iter().zip(node.first..) {
-                let Some(entry) = enter(part, search.limit.plane()) else {
+                let Some(entry) = enter(part, query.limit.to_bound()) else {
                     continue;
                 };
                 let mut at = waiting;
@@ -398,33 +403,33 @@ impl<P: Plane> Octants<'_, P> {
     }
 }
 
-impl<S: Scalar, const NEEDS: Needs> Accelerator<S, NEEDS> for Octants<'_, S::Plane> {
-    type Stack = Stack<S::Plane>;
+impl<S: Scalar, const FEATURES: FeatureSet> Accelerator<S, FEATURES> for Octree<'_, S::Bound> {
+    type Stack = TraversalStack<S::Bound>;
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut TraversalStack<S::Bound>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
-        self.walk(&mut search, stack);
-        search.hit()
+        let mut query = Query::<_, _, false, FEATURES>::new(scene, ray, scene.diameter, observer);
+        self.walk(&mut query, stack);
+        query.hit()
     }
 
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
-        stack: &mut Stack<S::Plane>,
+        stack: &mut TraversalStack<S::Bound>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
-        self.walk(&mut search, stack);
-        search.found
+        let mut query = Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+        self.walk(&mut query, stack);
+        query.found
     }
 }

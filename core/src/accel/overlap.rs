@@ -2,50 +2,51 @@
 //! and seldom "yes" elsewhere.
 
 use super::build;
-use super::octants::Link;
-use crate::ray::Bounds;
+use super::octree::LinkBy;
+use crate::object::{ObjectKind, ObjectRef};
+use crate::ray::Aabb;
 use crate::scalar::Scalar;
-use crate::shape::{Cone, Kind, ObjectRef, Polygon, Shapes, Triangle};
+use crate::shape::{Cone, Polygon, Shapes, Triangle};
 use crate::vec3::{Axis, Vec3, vec3};
 
 /// Whether `object` belongs into the cell. All tests take the cell wider by the scene's slack,
 /// which bounds how far a computed hit lies off its surface.
-pub(super) fn touches<S: Scalar>(
+pub(super) fn overlaps<S: Scalar>(
     shapes: &Shapes<'_, S>,
     object: ObjectRef,
-    cell: &Bounds<S::Plane>,
-    link: Link,
+    cell: &Aabb<S::Bound>,
+    link: LinkBy,
 ) -> bool {
-    let bounds = build::planes(shapes.bounds(object));
+    let bounds = build::to_bounds(shapes.bounds(object));
     let overlap = Axis::ALL
         .into_iter()
         .all(|a| bounds.low[a] <= cell.high[a] && cell.low[a] <= bounds.high[a]);
-    if !overlap || link == Link::Box {
+    if !overlap || link == LinkBy::Box {
         return overlap;
     }
     let slack = vec3(shapes.slack, shapes.slack, shapes.slack);
-    let cell = Bounds {
-        low: cell.low.map(S::from_plane) - slack,
-        high: cell.high.map(S::from_plane) + slack,
+    let cell = Aabb {
+        low: cell.low.map(S::from_bound) - slack,
+        high: cell.high.map(S::from_bound) + slack,
     };
     let i = object.index();
     match object.kind() {
-        Kind::Sphere => shapes
+        ObjectKind::Sphere => shapes
             .spheres
             .get(i)
             .is_none_or(|s| shell(s.centre, s.radius, shapes.slack, &cell)),
-        Kind::Cuboid => shapes.cuboids.get(i).is_none_or(|c| {
+        ObjectKind::Cuboid => shapes.cuboids.get(i).is_none_or(|c| {
             // The surface alone: a cell wholly inside sees nothing.
             Axis::ALL
                 .into_iter()
                 .any(|a| cell.low[a] <= c.low[a] || cell.high[a] >= c.high[a])
         }),
-        Kind::Cone => shapes.cones.get(i).is_none_or(|c| cone(c, &cell)),
-        Kind::Triangle => shapes
+        ObjectKind::Cone => shapes.cones.get(i).is_none_or(|c| cone(c, &cell)),
+        ObjectKind::Triangle => shapes
             .triangles
             .get(i)
             .is_none_or(|Triangle { plane, corners, .. }| flat(plane, corners, &cell)),
-        Kind::Polygon => shapes.polygons.get(i).is_none_or(|p: &Polygon<S>| {
+        ObjectKind::Polygon => shapes.polygons.get(i).is_none_or(|p: &Polygon<S>| {
             p.corners(shapes.outlines.corners)
                 .is_none_or(|corners| flat(&p.plane, corners, &cell))
         }),
@@ -54,7 +55,7 @@ pub(super) fn touches<S: Scalar>(
 
 /// A sphere's surface: the cell's nearest point lies inside of it and its farthest outside
 /// (Arvo, "A simple method for box-sphere intersection testing", Graphics Gems, 1990).
-fn shell<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Bounds<S>) -> bool {
+fn shell<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Aabb<S>) -> bool {
     let (mut nearest, mut farthest) = (Vec3::ZERO, Vec3::ZERO);
     for a in Axis::ALL {
         let (below, above) = (cell.low[a] - centre[a], centre[a] - cell.high[a]);
@@ -67,7 +68,7 @@ fn shell<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Bounds<S>) -> b
 }
 
 /// A cone's side against the sphere around the cell.
-fn cone<S: Scalar>(cone: &Cone<S>, cell: &Bounds<S>) -> bool {
+fn cone<S: Scalar>(cone: &Cone<S>, cell: &Aabb<S>) -> bool {
     let half = |low: S, high: S| (high - low).quotient(S::ONE + S::ONE);
     let sides = vec3(
         half(cell.low.x, cell.high.x),
@@ -77,7 +78,7 @@ fn cone<S: Scalar>(cone: &Cone<S>, cell: &Bounds<S>) -> bool {
     let (_, radius) = sides.unit();
     let radius = radius + radius.quotient(S::ONE + S::ONE); // room for an approximate root
     let w = cell.low + sides - cone.centre;
-    if w.dot_wide(w) > S::product(cone.reach + radius, cone.reach + radius) {
+    if w.dot_wide(w) > S::product(cone.bounding_radius + radius, cone.bounding_radius + radius) {
         return false;
     }
     let height = w.dot(cone.axis);
@@ -92,7 +93,7 @@ fn cone<S: Scalar>(cone: &Cone<S>, cell: &Bounds<S>) -> bool {
 /// the cell's cut with its plane (Green and Hatch, "Fast polygon-cube intersection testing",
 /// Graphics Gems V, 1995). In the polygon's projection the cut is bounded by the cell's two
 /// other sides and by two lines on which the third coordinate reaches the cell's faces.
-fn flat<S: Scalar>(plane: &crate::shape::Flat<S>, corners: &[[S; 2]], cell: &Bounds<S>) -> bool {
+fn flat<S: Scalar>(plane: &crate::shape::Plane<S>, corners: &[[S; 2]], cell: &Aabb<S>) -> bool {
     // The corners of the cell lowest and highest along the normal lie on either side.
     let (mut low, mut high) = (cell.low, cell.high);
     for a in Axis::ALL {

@@ -1,9 +1,9 @@
 //! The tight tree in less than a quarter of the memory, walked in 16-bit integers whatever the arithmetic: for
 //! targets with little memory, no floating-point unit, or no wide multiplication.
 //!
-//! Coordinates are on the *grid*: [`Scalar::grid`] maps a scene's numbers to integers whose
+//! Coordinates are on the *grid*: [`Scalar::to_grid`] maps a scene's numbers to integers whose
 //! differences stay below 2³¹. Boxes and distances are in *ticks*, the power of two of grid units
-//! of which the scene's reach has 2¹³ to 2¹⁴: products of two such numbers fit 32 bits.
+//! of which the scene's diameter has 2¹³ to 2¹⁴: products of two such numbers fit 32 bits.
 //!
 //! A node is a run of words, bytes from the lowest:
 //!
@@ -13,15 +13,16 @@
 //! | 1 | its origin's z, 16 bits; how many bits its steps along x, y and z are shifted by, 4 each; how many children it has |
 //! | 2 each | a child: three low planes in steps from the origin, and the low byte of its place; three high planes, and the high byte. The place is that of its first link, marked, or of its node in pairs of words |
 
-use super::build::{self, BuildError, MAX_DEPTH, Options, Summary};
-use super::search::Search;
+use super::build::{self, BuildError, BuildOptions, BuildStats, MAX_DEPTH};
+use super::query::Query;
 use super::{Accelerator, Hit};
-use crate::needs::Needs;
+use crate::features::FeatureSet;
+use crate::object::ObjectRef;
 use crate::observe::Observer;
-use crate::ray::{Bounds, Ray};
+use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, leading_zeros, reciprocal_q15};
 use crate::scene::Scene;
-use crate::shape::{ObjectRef, Shapes};
+use crate::shape::Shapes;
 use crate::vec3::Axis;
 
 const HEADER: usize = 2;
@@ -29,14 +30,14 @@ const CHILD: usize = 2;
 /// Marks a child's place as that of a leaf.
 const LEAF: u32 = 1 << 15;
 
-/// The scene's reach, and with it every difference of two coordinates, is below 2 to this, in ticks.
+/// The scene's diameter, and with it every difference of two coordinates, is below 2 to this, in ticks.
 const REACH_BITS: u32 = 14;
 /// How far rounding can bring a distance in ticks off; proved at [`Along`].
 const MARGIN: i32 = 4;
 
 /// A finished tree, walked with a stack of so much room.
 #[derive(Clone, Copy, Debug)]
-pub struct Packed<'a, const ROOM: usize = PACKED_STACK> {
+pub struct CompactBvh8<'a, const ROOM: usize = COMPACT_STACK_SIZE> {
     /// The nodes, the root first.
     pub words: &'a [u32],
     /// The objects, leaf by leaf, the last of each leaf marked.
@@ -47,38 +48,38 @@ pub struct Packed<'a, const ROOM: usize = PACKED_STACK> {
 
 /// The nodes and leaves that wait while a packed tree is walked: the ticks at which each is
 /// entered in the upper half, its place in the lower one, so that the nearer is the smaller.
-/// Depth beyond [`PACKED_DEPTH`] is cut off when the tree is built; [`Packed::waiting`] tells how much less
+/// Depth beyond [`COMPACT_MAX_DEPTH`] is cut off when the tree is built; [`CompactBvh8::waiting`] tells how much less
 /// room does.
 #[derive(Clone, Copy, Debug)]
-pub struct PackedStack<const ROOM: usize = PACKED_STACK>([u32; ROOM]);
+pub struct CompactStack<const ROOM: usize = COMPACT_STACK_SIZE>([u32; ROOM]);
 
-/// Room of a [`PackedStack`] that does for any tree.
-pub const PACKED_STACK: usize = 64;
+/// Room of a [`CompactStack`] that does for any tree.
+pub const COMPACT_STACK_SIZE: usize = 64;
 /// The deepest packed tree, whose walk fits it: every level leaves seven behind.
-pub const PACKED_DEPTH: u32 = (PACKED_STACK as u32 - 8) / 7;
-const _: () = assert!(PACKED_DEPTH <= MAX_DEPTH);
+pub const COMPACT_MAX_DEPTH: u32 = (COMPACT_STACK_SIZE as u32 - 8) / 7;
+const _: () = assert!(COMPACT_MAX_DEPTH <= MAX_DEPTH);
 
-impl<const ROOM: usize> Default for PackedStack<ROOM> {
+impl<const ROOM: usize> Default for CompactStack<ROOM> {
     fn default() -> Self {
         Self([0; ROOM])
     }
 }
 
-impl<'a> Packed<'a> {
-    /// Builds the tree of all shapes of a scene of this reach in lent words and links, with `boxes`
+impl<'a> CompactBvh8<'a> {
+    /// Builds the tree of all shapes of a scene of this diameter in lent words and links, with `boxes`
     /// as scratch memory, one for each object. What finds no room stays unsplit.
     ///
     /// # Errors
     /// If there is no room for one node, or for a link and a box for each object, or if there are
     /// 2¹⁵ objects or more: a child's word has no place for them.
-    pub fn build<S: Scalar, const NEEDS: Needs>(
-        shapes: &Shapes<'_, S, NEEDS>,
-        reach: S,
+    pub fn build<S: Scalar, const FEATURES: FeatureSet>(
+        shapes: &Shapes<'_, S, FEATURES>,
+        diameter: S,
         words: &'a mut [u32],
         links: &'a mut [ObjectRef],
-        boxes: &mut [Bounds<i32>],
-        options: Options,
-    ) -> Result<(Self, Summary), BuildError> {
+        boxes: &mut [Aabb<i32>],
+        options: BuildOptions,
+    ) -> Result<(Self, BuildStats), BuildError> {
         let count = shapes.len();
         let too_small = BuildError {
             nodes: 1,
@@ -92,26 +93,28 @@ impl<'a> Packed<'a> {
         for ((link, bounds), object) in links.iter_mut().zip(&mut *boxes).zip(shapes.refs()) {
             *link = object;
             let shape = shapes.bounds(object);
-            *bounds = Bounds {
-                low: shape.low.map(|x| x.grid().saturating_sub(S::GRID_SLACK)),
-                high: shape.high.map(|x| x.grid().saturating_add(S::GRID_SLACK)),
+            *bounds = Aabb {
+                low: shape.low.map(|x| x.to_grid().saturating_sub(S::GRID_SLACK)),
+                high: shape
+                    .high
+                    .map(|x| x.to_grid().saturating_add(S::GRID_SLACK)),
             };
         }
-        let mut summary = Summary {
+        let mut stats = BuildStats {
             links: count as u32,
-            ..Summary::default()
+            ..BuildStats::default()
         };
         let mut builder = Builder {
             words,
             links,
             boxes,
             used: 0,
-            tick: tick_of(reach.grid()),
+            tick: tick_of(diameter.to_grid()),
             leaf_size: options.leaf_size.max(1) as usize,
         };
         if count > 0 {
             builder.node(0, count).ok_or(too_small)?;
-            builder.grow(options.depth.clamp(1, PACKED_DEPTH), &mut summary);
+            builder.grow(options.depth.clamp(1, COMPACT_MAX_DEPTH), &mut stats);
         }
         let (used, tick) = (builder.used, builder.tick);
         Ok((
@@ -120,22 +123,22 @@ impl<'a> Packed<'a> {
                 links,
                 tick,
             },
-            summary,
+            stats,
         ))
     }
 }
 
-/// The least shift, but for 0, that brings a reach, and what rounding adds to it, below
+/// The least shift, but for 0, that brings a diameter, and what rounding adds to it, below
 /// 2^`REACH_BITS`.
-fn tick_of(reach: i32) -> u32 {
-    let bits = i32::BITS - reach.saturating_add(reach >> 8).leading_zeros();
+fn tick_of(diameter: i32) -> u32 {
+    let bits = i32::BITS - diameter.saturating_add(diameter >> 8).leading_zeros();
     bits.saturating_sub(REACH_BITS).max(1)
 }
 
 struct Builder<'b> {
     words: &'b mut [u32],
     links: &'b mut [ObjectRef],
-    boxes: &'b mut [Bounds<i32>],
+    boxes: &'b mut [Aabb<i32>],
     used: usize,
     tick: u32,
     leaf_size: usize,
@@ -144,15 +147,15 @@ struct Builder<'b> {
 impl Builder<'_> {
     /// Splits what is below the root breadth first. Until it is its turn, a child's two words hold
     /// its range of objects, so that no other memory is needed.
-    fn grow(&mut self, deepest: u32, summary: &mut Summary) {
+    fn grow(&mut self, deepest: u32, stats: &mut BuildStats) {
         let (mut at, mut depth, mut level_end) = (0, 1, self.used);
         while let Some(header) = Header::read(self.words, at) {
             if at >= level_end {
                 depth += 1;
                 level_end = self.used;
             }
-            summary.inner += 1;
-            summary.depth = summary.depth.max(depth);
+            stats.inner += 1;
+            stats.depth = stats.depth.max(depth);
             for k in 0..header.count {
                 let slot = at + HEADER + k * CHILD;
                 let Some(&[start, end]) = self.words.get(slot..).and_then(|w| w.first_chunk())
@@ -167,8 +170,8 @@ impl Builder<'_> {
                     self.node(start, end)
                 };
                 let word = inner.unwrap_or_else(|| {
-                    summary.leaves += 1;
-                    summary.unsplit += u32::from(!fits && depth < deepest);
+                    stats.leaves += 1;
+                    stats.unsplit += u32::from(!fits && depth < deepest);
                     if let Some(last) = self.links.get_mut(end.wrapping_sub(1)) {
                         *last = last.marked_last(true);
                     }
@@ -193,12 +196,13 @@ impl Builder<'_> {
         if at / CHILD >= LEAF as usize {
             return None;
         }
-        let (groups, count) = build::split(start, end, self.links, self.boxes, self.leaf_size);
+        let (groups, count) =
+            build::split_into_groups(start, end, self.links, self.boxes, self.leaf_size);
         let groups = groups.get(..count)?;
         let node = self.words.get_mut(at..at + HEADER + count * CHILD)?;
         let all = groups
             .iter()
-            .fold(build::nothing(), |a, g| build::union(a, g.bounds));
+            .fold(build::empty_box(), |a, g| build::union(a, g.bounds));
         let header = Header::around(&ticks_of(&all, self.tick), count);
         let ranges = groups.iter().flat_map(|g| [g.start as u32, g.end as u32]);
         for (place, word) in node
@@ -213,9 +217,9 @@ impl Builder<'_> {
 }
 
 /// A box on the grid in ticks, rounded outward.
-fn ticks_of(bounds: &Bounds<i32>, tick: u32) -> Bounds<i32> {
+fn ticks_of(bounds: &Aabb<i32>, tick: u32) -> Aabb<i32> {
     let up = |x: i32| ((i64::from(x) + (1 << tick) - 1) >> tick) as i32;
-    Bounds {
+    Aabb {
         low: bounds.low.map(|x| x >> tick),
         high: bounds.high.map(up),
     }
@@ -231,7 +235,7 @@ struct Header {
 
 impl Header {
     /// The finest steps with which 255 of them span the box.
-    fn around(bounds: &Bounds<i32>, count: usize) -> Self {
+    fn around(bounds: &Aabb<i32>, count: usize) -> Self {
         Self {
             origin: Axis::ALL.map(|a| bounds.low[a]),
             shift: Axis::ALL.map(|a| {
@@ -268,7 +272,7 @@ impl Header {
     }
 
     /// A child's two words; its box is rounded outward.
-    fn child(&self, bounds: &Bounds<i32>, word: u32) -> [u32; CHILD] {
+    fn child(&self, bounds: &Aabb<i32>, word: u32) -> [u32; CHILD] {
         let (mut low, mut high) = ([0u8; 4], [0u8; 4]);
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
             let steps = |x: i32| x.wrapping_sub(self.origin[i]) as u32;
@@ -290,26 +294,26 @@ impl Header {
 /// step's product, 255 · 2⁻⁸; by 1 for the product of the node's origin, the direction's own
 /// rounding (2⁻²⁹ over at least 2⁻⁷) and the limit's. `loose` is their sum.
 ///
-/// A ray flatter than 2⁻⁷ drifts by less than reach/2⁷ along the axis. It is taken for one of 2⁻⁷
-/// that is loose by twice the reach: where it can touch a box within its drift, (low − origin) 2⁷
-/// ≤ reach and (high − origin) 2⁷ ≥ −reach, so the box is entered before 0 and left after reach.
+/// A ray flatter than 2⁻⁷ drifts by less than diameter/2⁷ along the axis. It is taken for one of 2⁻⁷
+/// that is loose by twice the diameter: where it can touch a box within its drift, (low − origin) 2⁷
+/// ≤ diameter and (high − origin) 2⁷ ≥ −diameter, so the box is entered before 0 and left after diameter.
 #[derive(Clone, Copy)]
 struct Along {
     /// In ticks, to nearest.
     origin: i32,
     /// With the direction's sign.
-    slope: i32,
+    inv_direction: i32,
     shift: u32,
     loose_q8: i32,
 }
 
-/// The least slope, with 30 bits behind the point, that is not flat.
+/// The least inv_direction, with 30 bits behind the point, that is not flat.
 const FLAT_Q30: u32 = 1 << 23;
 
 impl Along {
     #[inline(always)]
     fn new<S: Scalar>(origin: S, direction: S, tick: u32) -> Self {
-        let slope_q30 = direction.slope_q30();
+        let slope_q30 = direction.direction_q30();
         let size = slope_q30.unsigned_abs();
         let flat = size < FLAT_Q30;
         let size = if flat { FLAT_Q30 } else { size };
@@ -318,8 +322,8 @@ impl Along {
         let inverse = reciprocal_q15(size << zeros >> 16) as i32;
         let shift = 9u32.wrapping_sub(zeros) & 15;
         Self {
-            origin: ((origin.grid() >> (tick.wrapping_sub(1) & 31)) + 1) >> 1,
-            slope: if slope_q30 < 0 { -inverse } else { inverse },
+            origin: ((origin.to_grid() >> (tick.wrapping_sub(1) & 31)) + 1) >> 1,
+            inv_direction: if slope_q30 < 0 { -inverse } else { inverse },
             shift,
             loose_q8: (MARGIN << 8)
                 + if flat {
@@ -334,11 +338,11 @@ impl Along {
     #[inline(always)]
     fn at(&self, header: &Header, axis: usize) -> Slab {
         let apart = header.origin[axis].wrapping_sub(self.origin);
-        let base = apart.wrapping_mul(self.slope) >> self.shift;
+        let base = apart.wrapping_mul(self.inv_direction) >> self.shift;
         Slab {
             near_q8: base.wrapping_sub(self.loose_q8),
             far_q8: base.wrapping_add(self.loose_q8),
-            step_q8: self.slope << header.shift[axis] >> self.shift,
+            step_q8: self.inv_direction << header.shift[axis] >> self.shift,
         }
     }
 }
@@ -369,10 +373,10 @@ impl Slab {
     }
 }
 
-impl<const ROOM: usize> Packed<'_, ROOM> {
+impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
     /// The most nodes and leaves that can ever wait, whatever the ray: the room that a stack needs.
     pub fn waiting(&self) -> usize {
-        self.waiting_below(0, PACKED_DEPTH)
+        self.waiting_below(0, COMPACT_MAX_DEPTH)
     }
 
     /// The same below a node: all its children, or all but one while that one is walked.
@@ -398,26 +402,26 @@ impl<const ROOM: usize> Packed<'_, ROOM> {
     }
 
     #[inline(always)]
-    fn walk<S: Scalar, O: Observer, const ANY: bool, const NEEDS: Needs>(
+    fn walk<S: Scalar, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
         &self,
-        search: &mut Search<'_, S, O, ANY, NEEDS>,
-        stack: &mut PackedStack<ROOM>,
+        query: &mut Query<'_, S, O, ANY, FEATURES>,
+        stack: &mut CompactStack<ROOM>,
     ) {
-        let (o, d) = (search.ray.origin, search.ray.direction);
+        let (o, d) = (query.ray.origin, query.ray.direction);
         let along = [
             Along::new(o.x, d.x, self.tick),
             Along::new(o.y, d.y, self.tick),
             Along::new(o.z, d.z, self.tick),
         ];
         // The bytes of the planes that a ray going down an axis comes to in the other order.
-        let swapped = (u32::from(along[0].slope < 0) * 0xff)
-            | (u32::from(along[1].slope < 0) * 0xff00)
-            | (u32::from(along[2].slope < 0) * 0xff_0000);
-        let mut limit = self.ticks(search.limit.grid());
+        let swapped = (u32::from(along[0].inv_direction < 0) * 0xff)
+            | (u32::from(along[1].inv_direction < 0) * 0xff00)
+            | (u32::from(along[2].inv_direction < 0) * 0xff_0000);
+        let mut limit = self.ticks(query.limit.to_grid());
         let mut at = 0;
         let mut waiting = 0usize;
         while let Some(header) = Header::read(self.words, at) {
-            search.observer.step(header.count);
+            query.observer.step(header.count);
             let [x, y, z] = [0, 1, 2].map(|i| along[i].at(&header, i));
             let base = waiting;
             let first = at + HEADER;
@@ -458,42 +462,44 @@ impl<const ROOM: usize> Packed<'_, ROOM> {
                     break place as usize * CHILD;
                 }
                 let start = (place & !LEAF) as usize;
-                if search.list(self.links.get(start..).unwrap_or_default()) {
+                if query.test_list(self.links.get(start..).unwrap_or_default()) {
                     return;
                 }
-                limit = self.ticks(search.limit.grid());
+                limit = self.ticks(query.limit.to_grid());
             };
         }
     }
 }
 
-impl<S: Scalar, const NEEDS: Needs, const ROOM: usize> Accelerator<S, NEEDS> for Packed<'_, ROOM> {
-    type Stack = PackedStack<ROOM>;
+impl<S: Scalar, const FEATURES: FeatureSet, const ROOM: usize> Accelerator<S, FEATURES>
+    for CompactBvh8<'_, ROOM>
+{
+    type Stack = CompactStack<ROOM>;
 
     #[inline(never)]
     fn nearest<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
-        stack: &mut PackedStack<ROOM>,
+        stack: &mut CompactStack<ROOM>,
         observer: &mut O,
     ) -> Option<Hit<S>> {
-        let mut search = Search::<_, _, false, NEEDS>::new(scene, ray, scene.reach, observer);
-        self.walk(&mut search, stack);
-        search.hit()
+        let mut query = Query::<_, _, false, FEATURES>::new(scene, ray, scene.diameter, observer);
+        self.walk(&mut query, stack);
+        query.hit()
     }
 
     #[inline(never)]
     fn any_hit<O: Observer>(
         &self,
-        scene: &Scene<'_, S, NEEDS>,
+        scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
-        stack: &mut PackedStack<ROOM>,
+        stack: &mut CompactStack<ROOM>,
         observer: &mut O,
     ) -> Option<ObjectRef> {
-        let mut search = Search::<_, _, true, NEEDS>::new(scene, ray, limit, observer);
-        self.walk(&mut search, stack);
-        search.found
+        let mut query = Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+        self.walk(&mut query, stack);
+        query.found
     }
 }
