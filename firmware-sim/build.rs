@@ -13,7 +13,7 @@
 //! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::model::Scene;
 use octray_scenes::plan::{Plan, PlanError};
@@ -98,8 +98,8 @@ fn baked() -> Result<String, String> {
     }
     let arith = variable("OCTRAY_ARITH", "auto");
     let test = Test::of(&arith, &env::var("TARGET").unwrap_or_default());
-    let options = octree::Options {
-        depth: PACKED_DEPTH,
+    let options = accel::BuildOptions {
+        depth: COMPACT_MAX_DEPTH,
         leaf_size: number("OCTRAY_LEAF_SIZE", &test.leaf_size().to_string())?,
     };
     let tree = match &*variable("OCTRAY_TREE", "auto") {

@@ -4,7 +4,7 @@ use crate::grown::Grown;
 use crate::options::{Arith, Link, Tree, TreeOptions, ViewOptions};
 use crate::ready::{Ready, intensity, level};
 use crate::{Built, Engine, Octree};
-use octray_core::octree::{self, Options, PACKED_DEPTH, Summary, Variant};
+use octray_core::accel::{self, BuildOptions, BuildStats, COMPACT_MAX_DEPTH, OctreeVariant};
 use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{self, Overflow, Prepared, View};
@@ -62,7 +62,7 @@ pub fn build(
 pub fn build_small(
     scene: &Scene,
     format: &str,
-    tree: Option<Options>,
+    tree: Option<BuildOptions>,
     view: &ViewOptions,
 ) -> Result<Box<dyn Engine>, Error> {
     let tree = &TreeOptions {
@@ -118,8 +118,8 @@ impl Request<'_> {
         let variant = match self.tree.kind {
             Tree::Packed | Tree::None => return self.small::<S>(),
             Tree::Tight => None,
-            Tree::Modified => Some(Variant::Modified),
-            Tree::Plain => Some(Variant::Plain),
+            Tree::Modified => Some(OctreeVariant::Modified),
+            Tree::Plain => Some(OctreeVariant::Plain),
         };
         let mut prepared = self.prepare::<S>()?;
         let Some(variant) = variant else {
@@ -127,8 +127,8 @@ impl Request<'_> {
             return Ok(self.ready(prepared, tree, summary));
         };
         let link = match self.tree.link {
-            Link::Shape => octree::Link::Shape,
-            Link::Box => octree::Link::Box,
+            Link::Shape => accel::LinkBy::Shape,
+            Link::Box => accel::LinkBy::Box,
         };
         let growth = self.growth(8);
         let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
@@ -140,21 +140,21 @@ impl Request<'_> {
         let mut prepared = self.prepare::<S>()?;
         if self.tree.kind == Tree::Packed {
             let (tree, summary) =
-                PackedTree::build(&mut prepared.scene, &self.growth(PACKED_DEPTH))
+                PackedTree::build(&mut prepared.scene, &self.growth(COMPACT_MAX_DEPTH))
                     .map_err(|_| Error::Objects)?;
             return Ok(self.ready(prepared, tree, summary));
         }
         let all = every_object(&prepared.scene);
-        let summary = Summary {
+        let summary = BuildStats {
             links: all.len() as u32,
-            ..Summary::default()
+            ..BuildStats::default()
         };
         Ok(self.ready(prepared, all, summary))
     }
 
     fn growth(&self, default_depth: u32) -> Growth {
         Growth {
-            options: Options {
+            options: BuildOptions {
                 depth: self.tree.depth.unwrap_or(default_depth),
                 leaf_size: self.tree.leaf_size.map_or(2, NonZeroU32::get),
             },
@@ -170,7 +170,7 @@ impl Request<'_> {
         &self,
         prepared: Prepared<S>,
         tree: T,
-        summary: Summary,
+        summary: BuildStats,
     ) -> Box<dyn Engine> {
         let background = prepared.scene.background;
         let built = Built {

@@ -17,8 +17,8 @@ mod ready;
 
 pub use build::{Error, build, build_small};
 
+use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::packet::Region;
 use options::Tree;
 use packet::{Intensity, Level, Packet};
 use serde::Serialize;

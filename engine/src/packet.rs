@@ -1,6 +1,6 @@
 //! Parts of a picture to be written into.
 
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 
 /// Red, green and blue in 8 bits, 255 being full intensity.
 pub type Level = [u8; 3];

@@ -4,12 +4,12 @@ use crate::apart::Apart;
 use crate::grown::Grown;
 use crate::packet::{Intensity, Level, Packet};
 use crate::{Built, Engine, FirstHit, Worker};
+use octray_core::accel::Accelerator;
+use octray_core::frame::Region;
+use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
-use octray_core::octree::Accelerator;
-use octray_core::packet::Region;
 use octray_core::scalar::Quantize;
-use octray_core::shape::ObjectRef;
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::quantise::Prepared;
 
@@ -32,9 +32,9 @@ impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
         Box::new(Tracing {
             ready: self,
             tree: self.tree.view(),
-            rays: Apart::new(Pending::EMPTY, self.max_depth as usize + 2),
+            rays: Apart::new(QueuedRay::EMPTY, self.max_depth as usize + 2),
             stack: Default::default(),
-            blockers: Apart::new(None, scene.lights.len()),
+            shadow_cache: Apart::new(None, scene.lights.len()),
             counters: Counters::default(),
         })
     }
@@ -45,9 +45,9 @@ impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
 struct Tracing<'a, S: Quantize, T: Grown<S>> {
     ready: &'a Ready<S, T>,
     tree: T::View<'a>,
-    rays: Apart<Pending<S>>,
+    rays: Apart<QueuedRay<S>>,
     stack: Stack<'a, S, T>,
-    blockers: Apart<Option<ObjectRef>>,
+    shadow_cache: Apart<Option<ObjectRef>>,
     counters: Counters,
 }
 
@@ -74,7 +74,7 @@ impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
         let mut workspace = Workspace {
             rays: self.rays.get(),
             stack: &mut self.stack,
-            blockers: self.blockers.get(),
+            shadow_cache: self.shadow_cache.get(),
         };
         work(&tracer, &mut workspace, &mut self.counters)
     }
@@ -100,7 +100,7 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
             intensities.fill(background.1);
         }
         // What blocked the lights last in another packet must not change what is counted in this one.
-        self.blockers.get().fill(None);
+        self.shadow_cache.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();
         self.render(&region, |x, y, colour| {
@@ -122,11 +122,11 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
             &ready.prepared.frame,
             (-f64::from(ready.built.scale)).exp2(),
         );
-        let samples = frame.parts().samples;
+        let samples = frame.params().samples;
         let columns = (0..ready.built.size.0).step_by(frame.block() as usize);
         let place = |column| {
             let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
-            inside.map(move |(x, y)| frame.place(column, row, x, y))
+            inside.map(move |(x, y)| frame.sample_position(column, row, x, y))
         };
         self.with(|tracer, workspace, counters| {
             let hit = |(x, y)| {

@@ -17,7 +17,7 @@ use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
 use octray::error::Error;
 use octray::interrupt::Interrupt;
 use octray::{check, output};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_engine as engine;
 use octray_engine::options::{PixelsPerRay, Tree, TreeOptions, ViewOptions};
 use octray_engine::packet::Packet;

@@ -2,7 +2,7 @@
 
 use crate::packets::{Part, Shape};
 use crate::picture::Picture;
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use std::mem;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

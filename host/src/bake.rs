@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
 use clap::ValueEnum;
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_engine::options::{Arith, PixelsPerRay};
 use octray_scenes::bake::{Options, Tree, bake};
 use octray_scenes::plan::Plan;
@@ -68,8 +68,8 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .to_string_lossy()
         .into_owned();
     let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
-    let growth = octree::Options {
-        depth: PACKED_DEPTH,
+    let growth = accel::BuildOptions {
+        depth: COMPACT_MAX_DEPTH,
         leaf_size: job.leaf_size,
     };
     let chosen = Options {

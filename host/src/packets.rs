@@ -1,6 +1,6 @@
 //! Cutting a picture into packets, strips of rows or tiles, and the memory that each is traced into.
 
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_engine::packet::{Intensity, Level, Packet};
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::job::WorkOptions;
 use crate::packets::Shape;
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_engine::{Built, Engine};
 use search::Search;
 use serde::Serialize;

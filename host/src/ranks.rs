@@ -18,8 +18,8 @@ use lead::Leader;
 use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
-use octray_core::observe::{Counters, Searches};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
+use octray_core::observe::{Counters, QueryCounts};
 use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use octray_engine::packet::{Intensity, Level};
 use octray_scenes::model::Scene;
@@ -68,7 +68,7 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::Searches`].
+    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::QueryCounts`].
     searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
     saturations: u32,
@@ -82,8 +82,8 @@ impl Tally {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            searches: counters.searches.map(|search| {
-                let Searches {
+            searches: counters.queries.map(|search| {
+                let QueryCounts {
                     steps,
                     children,
                     outlines,
@@ -107,7 +107,7 @@ impl Tally {
             hits: self.hits,
             searches: (self.searches).map(|(counts, tests, met)| {
                 let [steps, children, outlines, edges, sides] = counts;
-                Searches {
+                QueryCounts {
                     steps,
                     children,
                     tests,

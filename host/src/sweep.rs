@@ -13,7 +13,7 @@ use crate::packets::Shape;
 use crate::simulate::{Machine, Outcome, simulate_messages};
 use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_engine as engine;
 use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use serde::Serialize;

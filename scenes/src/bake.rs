@@ -9,7 +9,7 @@
 //! | name | what |
 //! | --- | --- |
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
-//! | `NEEDS` | what the scene needs, for [`octray_core::needs`] |
+//! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
 //! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
 //! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
 //! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
@@ -26,11 +26,11 @@ pub use literal::Literal;
 use crate::model::Scene;
 use crate::quantise::{Overflow, Prepared, View, quantise};
 use crate::tree::{Growth, PackedTree, every_object};
-use octray_core::needs::{self, Needs};
-use octray_core::octree;
+use octray_core::accel;
+use octray_core::features::{self, FeatureSet};
+use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use thiserror::Error;
 
@@ -59,10 +59,10 @@ pub enum Tree {
     /// A list of all objects.
     None,
     /// A packed tree, built beforehand.
-    Packed(octree::Options),
+    Packed(accel::BuildOptions),
     /// A packed tree that the device builds in its own memory; how much it takes is found out
     /// beforehand.
-    Device(octree::Options),
+    Device(accel::BuildOptions),
 }
 
 /// A baked scene.
@@ -72,8 +72,8 @@ pub struct Baked {
     pub source: String,
     /// The name of the format; tells what `auto` has chosen.
     pub format: &'static str,
-    /// What the scene needs.
-    pub needs: Needs,
+    /// The features that the scene uses.
+    pub features: FeatureSet,
     /// Bytes of the tables, links and nodes included, on a target of 32 bits.
     pub bytes: usize,
     /// How many rays can wait at once.
@@ -128,13 +128,13 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
             (source::Tree::Device(words, growth), every)
         }
     };
-    let needs = needs_of(&prepared, options.view.max_depth);
-    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), needs, options));
+    let features = features_of(&prepared, options.view.max_depth);
+    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), features, options));
     let tables = source::Tables {
         prepared: &prepared,
         tree,
         links: &links,
-        needs,
+        features,
         rays,
         options,
     };
@@ -142,7 +142,7 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         bytes: tables.bytes(),
         source: tables.to_string(),
         format: S::NAME,
-        needs,
+        features,
         rays,
         words: tables.tree.room(),
         nodes: tables.tree.nodes(),
@@ -150,29 +150,29 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
 }
 
 /// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
-fn needs_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> Needs {
+fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet {
     let scene = &prepared.scene;
     let shapes = scene.shapes();
     let mut set = 0;
-    let mut need = |what: Needs, if_so: bool| set |= if if_so { what } else { 0 };
-    for kind in Kind::ALL {
-        need(needs::of_kind(kind), shapes.count(kind) > 0);
+    let mut need = |what: FeatureSet, if_so: bool| set |= if if_so { what } else { 0 };
+    for kind in ObjectKind::ALL {
+        need(features::of_kind(kind), shapes.count(kind) > 0);
     }
-    need(needs::BANDS, !scene.bands.is_empty());
-    need(needs::PATCHES, !scene.patches.is_empty());
-    need(needs::SHADOWS, !scene.lights.is_empty());
+    need(features::BANDS, !scene.bands.is_empty());
+    need(features::PATCHES, !scene.patches.is_empty());
+    need(features::SHADOWS, !scene.lights.is_empty());
     for surface in used_surfaces(prepared) {
         let shines = surface.specular != Vec3::ZERO;
-        need(needs::SPECULAR, shines);
+        need(features::SPECULAR, shines);
         need(
-            needs::FRACTIONS,
+            features::FRACTIONS,
             shines && surface.shine.fraction != S::ZERO,
         );
         need(
-            needs::REFLECTION,
+            features::REFLECTION,
             surface.reflect != S::ZERO && max_depth > 0,
         );
-        need(needs::REFRACTION, surface.refract != S::ZERO);
+        need(features::REFRACTION, surface.refract != S::ZERO);
     }
     set
 }
@@ -193,12 +193,13 @@ fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
 /// that also transmits leaves one more at each bounce.
 fn room<S: Scalar + Literal>(
     surfaces: &[Surface<S>],
-    needs: Needs,
+    features: FeatureSet,
     options: &Options<'_>,
 ) -> usize {
-    let follows =
-        |what| needs::needs(needs, what) && options.view.max_depth > 0 && !surfaces.is_empty();
-    match (follows(needs::REFLECTION), follows(needs::REFRACTION)) {
+    let follows = |what| {
+        features::contains(features, what) && options.view.max_depth > 0 && !surfaces.is_empty()
+    };
+    match (follows(features::REFLECTION), follows(features::REFRACTION)) {
         (false, false) => 0,
         (true, false) | (false, true) => 1,
         (true, true) => {

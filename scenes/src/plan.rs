@@ -18,7 +18,7 @@ use crate::bake::{FORMATS, Options, Tree};
 use crate::model::Scene;
 use crate::quantise::View;
 use fnv::FnvHasher;
-use octray_core::octree;
+use octray_core::accel;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hasher;
@@ -107,7 +107,7 @@ impl Display for Plan {
             "scene {scene:016x}\narith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
              max-depth {max_depth}\ncut-off {cut_off}\ntree {kind}\n"
         )?;
-        if let Some(octree::Options { depth, leaf_size }) = grown {
+        if let Some(accel::BuildOptions { depth, leaf_size }) = grown {
             write!(f, "tree-depth {depth}\nleaf-size {leaf_size}\n")?;
         }
         writeln!(f, "rays {rays}")
@@ -172,7 +172,7 @@ impl FromStr for Plan {
         let tree = match &*kind {
             "none" => Tree::None,
             "packed" | "device" => {
-                let options = octree::Options {
+                let options = accel::BuildOptions {
                     depth: lines.take("tree-depth", whole, |text| text.parse().ok())?,
                     leaf_size: lines.take("leaf-size", whole, |text| text.parse().ok())?,
                 };
@@ -252,7 +252,7 @@ mod tests {
             pixels_per_ray: 4,
             max_depth: 5,
             cut_off: 1.0 / 512.0,
-            tree: Tree::Packed(octree::Options {
+            tree: Tree::Packed(accel::BuildOptions {
                 depth: 3,
                 leaf_size: 2,
             }),
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back() {
         let plan = example();
-        let grown = octree::Options {
+        let grown = accel::BuildOptions {
             depth: 1,
             leaf_size: 9,
         };

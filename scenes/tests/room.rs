@@ -1,7 +1,7 @@
 //! How much room the walk of a packed tree takes.
 
-use octray_core::octree::{Accelerator, Options, Packed};
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::accel::{Accelerator, BuildOptions, CompactBvh8};
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::quantise::{Prepared, View, quantise};
@@ -17,7 +17,7 @@ const VIEW: View = View {
 fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {
     let kind = Kind::Soup;
     let mut prepared = quantise::<f32>(&generate(Spec { kind, objects }, 3), &VIEW).unwrap();
-    let options = Options {
+    let options = BuildOptions {
         depth: 24,
         leaf_size: 2,
     };
@@ -38,9 +38,9 @@ fn render<A: Accelerator<f32>>(prepared: &Prepared<f32>, tree: &A) -> Vec<Vec3<f
         cut_off: 0.002,
     };
     let mut workspace = Workspace {
-        rays: &mut [Pending::EMPTY; 6],
+        rays: &mut [QueuedRay::EMPTY; 6],
         stack: &mut A::Stack::default(),
-        blockers: &mut [],
+        shadow_cache: &mut [],
     };
     let mut picture = Vec::new();
     let put = |_, _, colour| picture.push(colour);
@@ -53,7 +53,7 @@ fn room_for_the_nodes_that_can_wait_is_enough() {
     const ROOM: usize = 16;
     let (prepared, tree) = grown(60);
     assert_eq!(tree.tree().waiting(), ROOM);
-    let exact = Packed::<'_, ROOM> {
+    let exact = CompactBvh8::<'_, ROOM> {
         words: &tree.words,
         links: &tree.links,
         tick: tree.tick,
@@ -67,7 +67,7 @@ fn without_nodes_below_the_root_only_its_children_wait() {
     let children = tree.words[1] >> 28;
     assert_eq!(tree.words.len(), 2 + 2 * children as usize);
     assert_eq!(tree.tree().waiting(), children as usize);
-    let nothing = Packed::<'_, 64> {
+    let nothing = CompactBvh8::<'_, 64> {
         words: &[],
         links: &[],
         tick: 0,

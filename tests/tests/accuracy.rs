@@ -3,7 +3,7 @@
 //! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
 
 use octray::metric::Difference;
-use octray_core::octree::{Accelerator, Stack};
+use octray_core::accel::{Accelerator, TraversalStack};
 use octray_core::scalar::{Approx, Fixed, Quantize};
 use octray_engine::options::Arith;
 use octray_scenes::model::Scene;
@@ -108,7 +108,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     };
     let mut prepared = quantise::<S>(scene, &view).expect("the scene fits the format");
     let growth = Growth {
-        options: octray_core::octree::Options {
+        options: octray_core::accel::BuildOptions {
             depth: 24,
             leaf_size: 2,
         },
@@ -116,7 +116,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     };
     let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
     let (scene, tree) = (prepared.scene.scene(), tree.tree());
-    let mut stack = Stack::default();
+    let mut stack = TraversalStack::default();
     let active = prepared.frame.active();
     let pixels = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
     pixels
@@ -124,7 +124,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
             if !active.columns.contains(&column) || !active.rows.contains(&row) {
                 return None;
             }
-            let (x, y) = prepared.frame.place(column, row, 0, 0);
+            let (x, y) = prepared.frame.sample_position(column, row, 0, 0);
             let ray = prepared.frame.camera().row(y).ray(x);
             tree.nearest(&scene, &ray, &mut stack, &mut ())
                 .map(|hit| scene.attributes_of(hit.object).id)

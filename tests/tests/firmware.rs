@@ -5,9 +5,9 @@
 //! Boards whose target is not installed, or whose emulator is missing, are skipped; which, is told.
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
-use octray_core::octree::Options;
+use octray_core::accel::BuildOptions;
 use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_scenes::quantise::{View, quantise};
 use octray_scenes::tree::{Growth, TightTree};
 use std::path::{Path, PathBuf};
@@ -190,7 +190,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
     };
     reset_saturations();
     let mut prepared = quantise::<S>(&scene, &view).unwrap();
-    let options = Options {
+    let options = BuildOptions {
         depth: 24,
         leaf_size: 2,
     };
@@ -207,9 +207,9 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         cut_off: S::from_f64(1.0 / 512.0),
     };
     let mut workspace = Workspace {
-        rays: &mut [Pending::EMPTY; 10],
+        rays: &mut [QueuedRay::EMPTY; 10],
         stack: &mut Default::default(),
-        blockers: &mut vec![None; scene.lights.len()],
+        shadow_cache: &mut vec![None; scene.lights.len()],
     };
     let background = scene.background.to_array().map(S::level);
     let mut levels = vec![background; (width * height) as usize];

@@ -81,7 +81,7 @@ fn strip_calls(folder: &Path) -> usize {
         let source = fs::read_to_string(&path).unwrap();
         let is_call = |line: &&str| {
             let line = line.trim();
-            ["observer.", "self.observer.", "search.observer."]
+            ["observer.", "self.observer.", "query.observer."]
                 .iter()
                 .any(|start| line.starts_with(start) && line.ends_with(");"))
         };

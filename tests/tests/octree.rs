@@ -3,12 +3,14 @@
 
 use fastrand::Rng;
 use octray::stats::Rays;
+use octray_core::accel::{
+    Accelerator, BoundScalar, BruteForce, BuildOptions, LinkBy, OctreeVariant,
+};
+use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
-use octray_core::octree::{Accelerator, Link, List, Options, Plane, Variant};
-use octray_core::ray::{Bounds, Ray};
+use octray_core::ray::{Aabb, Ray};
 use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
-use octray_core::shape::ObjectRef;
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::{Axis, Vec3, vec3};
 use octray_engine::options::{self, Arith, Tree};
 use octray_scenes::generate::{Kind, Spec};
@@ -116,7 +118,13 @@ fn no_ray_panics<S: Quantize>() {
                 ray.direction[axis] = extreme(&mut rng);
             }
             let limit = extreme(&mut rng);
-            shoot(&house.bare, &List(&house.all), ray, limit, &mut memory);
+            shoot(
+                &house.bare,
+                &BruteForce(&house.all),
+                ray,
+                limit,
+                &mut memory,
+            );
             let (_, scene, tree) = &house.tight;
             shoot(scene, &tree.tree(), ray, limit, &mut memory);
             let (_, scene, tree) = &house.packed;
@@ -130,15 +138,15 @@ fn no_ray_panics<S: Quantize>() {
 
 /// What a tracer works with.
 struct Memory<S: Quantize> {
-    rays: Vec<Pending<S>>,
-    blockers: Vec<Option<ObjectRef>>,
+    rays: Vec<QueuedRay<S>>,
+    shadow_cache: Vec<Option<ObjectRef>>,
 }
 
 impl<S: Quantize> Memory<S> {
     fn new() -> Self {
         Self {
-            rays: vec![Pending::EMPTY; 5],
-            blockers: vec![None; 2],
+            rays: vec![QueuedRay::EMPTY; 5],
+            shadow_cache: vec![None; 2],
         }
     }
 }
@@ -162,7 +170,7 @@ fn shoot<S: Quantize, A: Accelerator<S>>(
     let mut workspace = Workspace {
         rays: &mut memory.rays,
         stack: &mut stack,
-        blockers: &mut memory.blockers,
+        shadow_cache: &mut memory.shadow_cache,
     };
     let colour = tracer.radiance(ray, &mut workspace, &mut Counters::default());
     let _ = colour.to_array().map(S::level);
@@ -211,16 +219,16 @@ type Roof<S, T> = (&'static str, Quantised<S>, T);
 struct House<S: Quantize> {
     bare: Quantised<S>,
     all: Vec<ObjectRef>,
-    tight: Roof<S, TightTree<S::Plane>>,
+    tight: Roof<S, TightTree<S::Bound>>,
     packed: Roof<S, PackedTree>,
-    octants: Vec<Roof<S, OctantTree<S::Plane>>>,
+    octants: Vec<Roof<S, OctantTree<S::Bound>>>,
 }
 
 impl<S: Quantize> House<S> {
     fn new(bare: &Quantised<S>, seed: u64) -> Self {
         let tiny = [1, 2, 5, 20][seed as usize % 4];
         let growth = |depth, leaf_size, arena| Growth {
-            options: Options { depth, leaf_size },
+            options: BuildOptions { depth, leaf_size },
             arena,
         };
         let tight = match seed % 3 {
@@ -230,13 +238,28 @@ impl<S: Quantize> House<S> {
         let few = growth(6, 1 + seed as u32 % 3, Some(3000));
         let full = growth(8, 1, Some(tiny));
         let octants = [
-            ("plain by shape", few, Variant::Plain, Link::Shape),
-            ("modified by shape", few, Variant::Modified, Link::Shape),
+            ("plain by shape", few, OctreeVariant::Plain, LinkBy::Shape),
+            (
+                "modified by shape",
+                few,
+                OctreeVariant::Modified,
+                LinkBy::Shape,
+            ),
             [
-                ("plain by box", few, Variant::Plain, Link::Box),
-                ("modified by box", few, Variant::Modified, Link::Box),
-                ("plain, tiny arena", full, Variant::Plain, Link::Shape),
-                ("modified, tiny arena", full, Variant::Modified, Link::Shape),
+                ("plain by box", few, OctreeVariant::Plain, LinkBy::Box),
+                ("modified by box", few, OctreeVariant::Modified, LinkBy::Box),
+                (
+                    "plain, tiny arena",
+                    full,
+                    OctreeVariant::Plain,
+                    LinkBy::Shape,
+                ),
+                (
+                    "modified, tiny arena",
+                    full,
+                    OctreeVariant::Modified,
+                    LinkBy::Shape,
+                ),
             ][seed as usize / 4 % 4],
         ];
         Self {
@@ -264,7 +287,7 @@ impl<S: Quantize> House<S> {
     }
 
     fn compare(&self, ray: &Ray<S>, rng: &mut Rng, wrong: &mut Wrong, case: &str) {
-        let list = List(&self.all);
+        let list = BruteForce(&self.all);
         let nearest = seen(&self.bare, &list, ray);
         wrong.rays += 1;
         wrong.hits += u64::from(nearest.is_some());
@@ -350,7 +373,7 @@ struct Shots<'a, S: Quantize> {
     house: &'a House<S>,
     eye: Vec3<S>,
     /// The box around all objects.
-    world: Bounds<S>,
+    world: Aabb<S>,
 }
 
 impl<'a, S: Quantize> Shots<'a, S> {
@@ -439,7 +462,7 @@ impl<'a, S: Quantize> Shots<'a, S> {
             // From a surface.
             6 => {
                 let ray = towards(self.eye, within(&bounds, rng), rng);
-                let list = List(&self.house.all);
+                let list = BruteForce(&self.house.all);
                 let scene = self.house.bare.scene();
                 let mut origin = within(&self.world, rng);
                 if let Some(hit) = list.nearest(&scene, &ray, &mut (), &mut ()) {
@@ -449,7 +472,7 @@ impl<'a, S: Quantize> Shots<'a, S> {
                         1 => contact.point,
                         _ => {
                             let size = contact.point.size();
-                            let error = S::surface_error(size, contact.reach);
+                            let error = S::surface_error(size, contact.curvature_extent);
                             contact.point + contact.outward * error
                         }
                     };
@@ -483,8 +506,10 @@ impl<'a, S: Quantize> Shots<'a, S> {
             0 => bounds.low[axis],
             1 => bounds.high[axis],
             _ => {
-                let (mut low, mut high) =
-                    (self.world.low[axis].plane(), self.world.high[axis].plane());
+                let (mut low, mut high) = (
+                    self.world.low[axis].to_bound(),
+                    self.world.high[axis].to_bound(),
+                );
                 for _ in 0..rng.u8(..6) {
                     let middle = low.middle(high);
                     if rng.bool() {
@@ -493,21 +518,21 @@ impl<'a, S: Quantize> Shots<'a, S> {
                         high = middle;
                     }
                 }
-                S::from_plane(if rng.bool() { low } else { high })
+                S::from_bound(if rng.bool() { low } else { high })
             }
         }
     }
 }
 
 fn half<S: Quantize>(low: S, high: S) -> S {
-    S::from_plane(low.plane().middle(high.plane()))
+    S::from_bound(low.to_bound().midpoint(high.to_bound()))
 }
 
 fn sign<S: Quantize>(x: S, rng: &mut Rng) -> S {
     if rng.bool() { x } else { -x }
 }
 
-fn within<S: Quantize>(bounds: &Bounds<S>, rng: &mut Rng) -> Vec3<S> {
+fn within<S: Quantize>(bounds: &Aabb<S>, rng: &mut Rng) -> Vec3<S> {
     let mut point = Vec3::ZERO;
     for axis in Axis::ALL {
         let (low, high) = (bounds.low[axis].to_f64(), bounds.high[axis].to_f64());

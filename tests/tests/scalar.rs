@@ -112,7 +112,7 @@ fn measure<S: Quantize>(budget: &Budget) {
         let (x, y) = (a.to_f64(), b.to_f64());
         note(&mut worst.sqrt, a.sqrt(), x.sqrt());
         note(&mut worst.quotient, a.quotient(b), x / y);
-        note(&mut worst.scaled, a.scaled(b.reciprocal()), x / y);
+        note(&mut worst.scaled, a.times_reciprocal(b.reciprocal()), x / y);
         let n = rng.u32(1..1 << 24);
         let numerator = rng.i32(-(n as i32)..=n as i32);
         let ratio = S::ratio(numerator, S::whole_reciprocal(n));
@@ -272,19 +272,19 @@ fn every_operation<S: Quantize>([a, b, c]: [S; 3], n: i32, e: i8, whole: u32) {
         S::sqrt_wide(wide),
         a.sqrt(),
         a.quotient(b),
-        a.scaled(b.reciprocal()),
+        a.times_reciprocal(b.reciprocal()),
         S::ratio(n, S::whole_reciprocal(whole.clamp(1, i32::MAX as u32))),
         S::unit([a, b, c]).1,
         a.to_local(e),
         a.to_global(e),
         S::surface_error(a, b),
         a.accumulate(b),
-        S::from_plane(a.plane()),
+        S::from_bound(a.to_bound()),
         S::from_f64(f64::from(n)),
         a.power(Exponent { whole, fraction }),
     ];
     for number in numbers {
-        let _ = (number.level(), number.to_f64(), number.slope());
+        let _ = (number.level(), number.to_f64(), number.inv_direction());
     }
 }
 
@@ -317,10 +317,10 @@ fn saturates<S: Quantize>(a: S, b: S) {
     }
 }
 
-/// [`Scalar::surely_exceeds`] is a shortcut, never a decision of its own.
+/// [`Scalar::quotient_exceeds`] is a shortcut, never a decision of its own.
 fn exceeds<S: Quantize>(a: S, b: S, limit: S) {
     let (a, b, limit) = (a.abs(), b.abs(), limit.abs());
-    if a >= S::ZERO && b > S::ZERO && limit >= S::ZERO && S::surely_exceeds(a, b, limit) {
+    if a >= S::ZERO && b > S::ZERO && limit >= S::ZERO && S::quotient_exceeds(a, b, limit) {
         assert!(a.quotient(b) > limit || limit == S::MAX);
     }
 }

@@ -5,7 +5,7 @@ use crate::cost::{CostMap, dearest_first};
 use crate::deal::{Deal, Policy};
 use crate::packets::Shape;
 use crate::simulate::{Machine, simulate};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use std::collections::HashMap;
 use std::num::NonZeroUsize;
 

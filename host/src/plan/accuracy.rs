@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::metric::Difference;
 use crate::picture::Picture;
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_engine::options::DEEPEST;
 use octray_scenes::bake::{CUT_OFF, Tree};
 use octray_scenes::model::Scene;
@@ -16,8 +16,8 @@ use octray_scenes::quantise::{Bound, bounds};
 use serde::Serialize;
 
 /// The packed tree that pictures are compared with; all trees give the same.
-const TREE: Tree = Tree::Packed(octree::Options {
-    depth: PACKED_DEPTH,
+const TREE: Tree = Tree::Packed(accel::BuildOptions {
+    depth: COMPACT_MAX_DEPTH,
     leaf_size: 2,
 });
 

@@ -6,7 +6,7 @@ use super::job::Bounds;
 use super::model::{Family, Model, Parts, Prediction, Weights};
 use crate::error::Error;
 use crate::measure::board::Board;
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_scenes::bake::{Baked, Tree, bake};
 use octray_scenes::plan::Plan;
 
@@ -80,7 +80,7 @@ impl Chooser<'_> {
     fn trees(&self, plan: &Plan, all: &mut Vec<Candidate>) -> Result<(), Error> {
         let first = all.len();
         let packed = |depth, leaf_size| Plan {
-            tree: Tree::Packed(octree::Options { depth, leaf_size }),
+            tree: Tree::Packed(accel::BuildOptions { depth, leaf_size }),
             ..plan.clone()
         };
         let objects = self.scope.scene.objects.len();
@@ -95,11 +95,11 @@ impl Chooser<'_> {
             .into_iter()
             .filter(|size| *size as usize <= objects.max(1))
         {
-            all.push(self.candidate(packed(PACKED_DEPTH, leaf_size))?);
+            all.push(self.candidate(packed(COMPACT_MAX_DEPTH, leaf_size))?);
         }
         // Shallower trees of the leaf size that is best.
         let best = cheapest(&all[first..]).map(|best| best.plan.tree);
-        if let Some(Tree::Packed(octree::Options { depth, leaf_size })) = best {
+        if let Some(Tree::Packed(accel::BuildOptions { depth, leaf_size })) = best {
             for depth in (1..depth).rev() {
                 let shallow = self.candidate(packed(depth, leaf_size))?;
                 let dear = cheapest(&all[first..])

@@ -9,8 +9,8 @@ use crate::packets::Shape;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::trace;
-use octray_core::observe::{Counters, RayKind, Searches};
-use octray_core::octree::Options;
+use octray_core::accel::BuildOptions;
+use octray_core::observe::{Counters, QueryCounts, RayKind};
 use octray_engine::options::{PixelsPerRay, ViewOptions};
 use octray_engine::{self as engine, Engine};
 use octray_scenes::bake::Tree;
@@ -69,7 +69,7 @@ impl Events {
         let shadow = rays(RayKind::Shadow);
         let [primary, reflected, transmitted] =
             [RayKind::Primary, RayKind::Reflected, RayKind::Transmitted].map(rays);
-        let search = |search: &Searches, closest: f64, shadow: f64| {
+        let search = |search: &QueryCounts, closest: f64, shadow: f64| {
             let mut events = [0.0; OF_SEARCH];
             events[..4].copy_from_slice(&[
                 closest,
@@ -84,7 +84,7 @@ impl Events {
             }
             events
         };
-        let [closest, blocking] = &counters.searches;
+        let [closest, blocking] = &counters.queries;
         let hits = counters.hits.iter().sum::<u64>() as f64;
         // Which of the objects met was the closest is not counted: each kind has its share.
         let met = closest.met.iter().sum::<u64>().max(1) as f64;
@@ -144,7 +144,7 @@ impl Probe {
     /// # Errors
     /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`].
     pub fn render(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Self, Error> {
-        let tree: Option<Options> = match plan.tree {
+        let tree: Option<BuildOptions> = match plan.tree {
             Tree::None => None,
             Tree::Packed(options) | Tree::Device(options) => Some(options),
         };

@@ -7,7 +7,7 @@ use crate::check;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::measure::board::{BOARDS, Board};
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_scenes::bake::{Baked, CUT_OFF, Tree, bake};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
@@ -176,8 +176,8 @@ impl Line {
         let unknown = |what: &str| Error::Failed(format!("the record of measurements: {what}"));
         let formats = octray_scenes::bake::FORMATS;
         // As the firmware's build script chooses it.
-        let options = octree::Options {
-            depth: PACKED_DEPTH,
+        let options = accel::BuildOptions {
+            depth: COMPACT_MAX_DEPTH,
             leaf_size: Test::of(&self.format, self.board()?.target).leaf_size(),
         };
         let mut plan = Plan {

@@ -10,7 +10,7 @@ use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::Process;
 use mpi::traits::{Communicator, Destination};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_core::scalar;
 use octray_engine::{self as engine, Worker};
 use std::time::{Duration, Instant};

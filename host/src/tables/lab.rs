@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use crate::render::Traced;
 use crate::stats::Rays;
 use crate::trace::trace;
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_engine as engine;
 use octray_engine::options::{Arith, TreeOptions, ViewOptions};
 use std::cell::RefCell;

@@ -9,7 +9,7 @@ use crate::deal::{Deal, Policy};
 use crate::error::Error;
 use crate::packets::Shape;
 use crate::simulate::{Machine, Outcome, simulate};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Rows of a packet in table VIII, H in the thesis.

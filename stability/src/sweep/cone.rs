@@ -7,8 +7,8 @@ use crate::random::{self, Random, dot as dot64};
 use crate::setting::Setting;
 use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Shape;
 use octray_scenes::quantise::Prepared;
@@ -223,7 +223,7 @@ fn compare<S: Number>(
         radii: cone.radii.map(|r| place.length(r)),
     };
     let found = [
-        counted(|| stage::hit(&shapes, Kind::Cone, ray, S::MAX)),
+        counted(|| stage::hit(&shapes, ObjectKind::Cone, ray, S::MAX)),
         counted(|| textbook(&numbers, ray)),
     ];
     for ((found, saturations), tally) in found.into_iter().zip(tallies) {

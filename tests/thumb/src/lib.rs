@@ -3,14 +3,12 @@
 #![no_std]
 
 use octray_core::camera::Camera;
-use octray_core::octree::{
-    Link, List, Octant, Octants, Options, Packed, PackedStack, Stack, Tight, TightMemory, Variant,
-};
-use octray_core::packet::{Frame, Region};
-use octray_core::ray::Bounds;
+use octray_core::accel::{BruteForce, BuildOptions, Bvh8, Bvh8Memory, CompactBvh8, CompactStack, LinkBy, Octree, OctreeNode, OctreeVariant, TraversalStack};
+use octray_core::frame::{Frame, Region};
+use octray_core::ray::Aabb;
 use octray_core::scalar::{Fixed, Scalar};
 use octray_core::scene::Scene;
-use octray_core::shape::ObjectRef;
+use octray_core::object::ObjectRef;
 use octray_core::trace::{Tracer, Workspace};
 
 type Number = Fixed<28, false>;
@@ -20,7 +18,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
 }
 
-const OPTIONS: Options = Options {
+const OPTIONS: BuildOptions = BuildOptions {
     depth: 8,
     leaf_size: 2,
 };
@@ -53,12 +51,12 @@ macro_rules! render {
 #[unsafe(no_mangle)]
 pub fn octray_tight(
     scene: &Scene<'_, Number>,
-    memory: TightMemory<'_, i32>,
+    memory: Bvh8Memory<'_, i32>,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    workspace: &mut Workspace<'_, Number, TraversalStack<i32>>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = Tight::build(&scene.shapes, memory, OPTIONS) {
+    if let Ok((tree, _)) = Bvh8::build(&scene.shapes, memory, OPTIONS) {
         render!(scene, camera, &tree, workspace, row);
     }
 }
@@ -67,14 +65,14 @@ pub fn octray_tight(
 #[unsafe(no_mangle)]
 pub fn octray_octants(
     scene: &Scene<'_, Number>,
-    nodes: &mut [Octant<i32>],
+    nodes: &mut [OctreeNode<i32>],
     links: &mut [ObjectRef],
-    variant: Variant,
+    variant: OctreeVariant,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    workspace: &mut Workspace<'_, Number, TraversalStack<i32>>,
     row: &mut Row,
 ) {
-    let built = Octants::build(&scene.shapes, nodes, links, OPTIONS, variant, Link::Shape);
+    let built = Octree::build(&scene.shapes, nodes, links, OPTIONS, variant, LinkBy::Shape);
     if let Ok((tree, _)) = built {
         render!(scene, camera, &tree, workspace, row);
     }
@@ -89,7 +87,7 @@ pub fn octray_list(
     workspace: &mut Workspace<'_, Number, ()>,
     row: &mut Row,
 ) {
-    render!(scene, camera, &List(objects), workspace, row);
+    render!(scene, camera, &BruteForce(objects), workspace, row);
 }
 
 /// Renders with a packed tree built here.
@@ -98,12 +96,12 @@ pub fn octray_packed(
     scene: &Scene<'_, Number>,
     words: &mut [u32],
     links: &mut [ObjectRef],
-    boxes: &mut [Bounds<i32>],
+    boxes: &mut [Aabb<i32>],
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, PackedStack>,
+    workspace: &mut Workspace<'_, Number, CompactStack>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = Packed::build(&scene.shapes, scene.reach, words, links, boxes, OPTIONS) {
+    if let Ok((tree, _)) = CompactBvh8::build(&scene.shapes, scene.diameter, words, links, boxes, OPTIONS) {
         render!(scene, camera, &tree, workspace, row);
     }
 }
