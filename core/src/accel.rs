@@ -1,4 +1,11 @@
-//! Which objects a ray has to be tested against: four trees in lent memory, and none.
+//! Which objects a ray has to be tested against: three trees in lent memory, and none.
+//!
+//! | accelerator | what it is | for |
+//! | --- | --- | --- |
+//! | [`Bvh8`] | a bounding volume hierarchy (BVH) of eight children per node | hosts; the fastest |
+//! | [`CompactBvh8`] | the same in less than a quarter of the memory, walked in integers | small targets |
+//! | [`Octree`] | the thesis's octrees, plain and modified | comparison |
+//! | [`BruteForce`] | no tree: every object is tested | a handful of objects; the oracle |
 //!
 //! All give exactly what testing every object gives, in every arithmetic. The proof has three
 //! parts.
@@ -8,75 +15,35 @@
 //! 2. If P lies in a box, the walk enters that box, at a distance ≤ t ([`InvDirection`] says why).
 //! 3. Nodes are left out only if they are entered beyond the best t so far; among equal t the
 //!    object with the smallest identity counts, whatever the order of tests.
+//!
+//! The modules: [`Accelerator`] is the interface; `query` holds what every walk does with the objects it comes
+//! to; `bound`, `inv_direction` and `clip` are the arithmetic of boxes, `boxes` and `sah` that of building.
 
+mod accelerator;
 mod bound;
+mod boxes;
 mod brute_force;
 mod build;
 mod bvh8;
+mod clip;
 mod compact_bvh8;
+mod inv_direction;
 mod octree;
-mod overlap;
 mod query;
+mod sah;
+mod scalar;
+mod stack;
 
-pub use bound::{BoundScalar, InvDirection, SlabPlanes};
+pub use accelerator::{Accelerator, Hit};
+pub use bound::{BoundScalar, Shifted};
 pub use brute_force::BruteForce;
 pub use build::{BuildError, BuildOptions, BuildStats};
 pub use bvh8::{Bvh8, Bvh8Memory, Bvh8Node};
-pub use compact_bvh8::{COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactBvh8, CompactStack};
+pub use clip::{ClipBoxes, SlabPlanes};
+pub use compact_bvh8::{
+    COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactBvh8, CompactStack, StackTooSmall,
+};
+pub use inv_direction::InvDirection;
 pub use octree::{LinkBy, Octree, OctreeNode, OctreeVariant};
-
-use crate::features::{ALL_FEATURES, FeatureSet};
-use crate::object::ObjectRef;
-use crate::observe::Observer;
-use crate::ray::Ray;
-use crate::scalar::Scalar;
-use crate::scene::Scene;
-
-/// What a ray meets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit<S> {
-    /// At which distance.
-    pub t: S,
-    /// Which object.
-    pub object: ObjectRef,
-}
-
-/// Room for the nodes that can wait while a tree is walked: every level leaves seven behind.
-pub const STACK_SIZE: usize = 256;
-const _: () = assert!(7 * (build::MAX_DEPTH as usize + 1) < STACK_SIZE);
-
-/// The nodes that wait while a tree is walked, with the distance at which each is entered.
-#[derive(Clone, Copy, Debug)]
-pub struct TraversalStack<P>([(u32, P); STACK_SIZE]);
-
-impl<P: BoundScalar> Default for TraversalStack<P> {
-    fn default() -> Self {
-        Self([(0, P::ZERO); STACK_SIZE])
-    }
-}
-
-/// Finds what rays meet.
-pub trait Accelerator<S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES>: Sync {
-    /// The nodes that wait while it is walked. Lent, since clearing it for each ray would cost
-    /// more than the walk.
-    type Stack: Default + Send;
-
-    /// The first object that the ray meets at t > 0.
-    fn nearest<O: Observer>(
-        &self,
-        scene: &Scene<'_, S, FEATURES>,
-        ray: &Ray<S>,
-        stack: &mut Self::Stack,
-        observer: &mut O,
-    ) -> Option<Hit<S>>;
-
-    /// Any object that the ray meets at 0 < t ≤ `limit`.
-    fn any_hit<O: Observer>(
-        &self,
-        scene: &Scene<'_, S, FEATURES>,
-        ray: &Ray<S>,
-        limit: S,
-        stack: &mut Self::Stack,
-        observer: &mut O,
-    ) -> Option<ObjectRef>;
-}
+pub use scalar::AccelScalar;
+pub use stack::{STACK_SIZE, TraversalStack};

@@ -1,9 +1,17 @@
-//! What a scene needs of the tracer, known when it is compiled: code for shapes and light that a
+//! What a scene uses of the tracer, known when it is compiled: code for shapes and light that a
 //! scene does not have is then not in the machine code.
 //!
-//! [`Scene`](crate::scene::Scene) and [`Shapes`](crate::shape::Shapes) carry it as a parameter. It
-//! is [`ALL_FEATURES`] unless somebody who knows the scene, as whoever bakes one into flash does,
-//! says less. What is left out is treated as absent, whatever the scene holds.
+//! [`Scene`](crate::scene::Scene) and [`Shapes`](crate::shape::Shapes) carry the set as a parameter.
+//! It is [`ALL_FEATURES`] by default; a program that knows its scene beforehand, such as firmware with a
+//! baked scene, gives a smaller one. What is left out is treated as absent, whatever the scene holds.
+//!
+//! ```
+//! use octray_core::features::{self, FeatureSet};
+//!
+//! const FEATURES: FeatureSet = features::SPHERES | features::SHADOWS;
+//! assert!(features::contains(FEATURES, features::SPHERES));
+//! assert!(!features::contains(FEATURES, features::REFRACTION));
+//! ```
 
 use crate::object::ObjectKind;
 
@@ -20,7 +28,7 @@ pub const POLYGONS: FeatureSet = of_kind(ObjectKind::Polygon);
 pub const CONES: FeatureSet = of_kind(ObjectKind::Cone);
 /// [`Shapes::cuboids`](crate::shape::Shapes::cuboids).
 pub const CUBOIDS: FeatureSet = of_kind(ObjectKind::Cuboid);
-/// Polygons of so many edges that they are cut into bands.
+/// Polygons with many edges, cut into bands.
 pub const BANDS: FeatureSet = 1 << 5;
 /// Patches: shading normals that vary over a flat shape.
 pub const PATCHES: FeatureSet = 1 << 6;
@@ -35,10 +43,10 @@ pub const REFLECTION: FeatureSet = 1 << 10;
 /// Transmitted rays.
 pub const REFRACTION: FeatureSet = 1 << 11;
 
-/// All of it: for whoever does not know the scene beforehand.
+/// Everything: for programs that do not know the scene beforehand.
 pub const ALL_FEATURES: FeatureSet = (1 << 12) - 1;
 
-/// Names and values, for whoever writes or reads a set.
+/// Names and values, to write a set as text.
 pub const NAMES: [(&str, FeatureSet); 12] = [
     ("SPHERES", SPHERES),
     ("TRIANGLES", TRIANGLES),
@@ -59,7 +67,7 @@ pub const fn of_kind(kind: ObjectKind) -> FeatureSet {
     1 << kind as u32
 }
 
-/// Whether a set holds what is asked for.
+/// Whether a set holds a feature, or any of several.
 #[inline(always)]
 pub const fn contains(set: FeatureSet, what: FeatureSet) -> bool {
     set & what != 0

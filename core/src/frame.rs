@@ -1,11 +1,11 @@
-//! A picture and its parts: which pixels are worth a ray, and the rows that one thread renders.
+//! A picture: which pixels are worth a ray, and the rows that one thread renders.
 
 use crate::accel::Accelerator;
 use crate::camera::Camera;
 use crate::features::FeatureSet;
 use crate::observe::Observer;
 use crate::scalar::Scalar;
-use crate::trace::{Tracer, Workspace};
+use crate::trace::{TraceScalar, Tracer, Workspace};
 use crate::vec3::{Vec3, vec3};
 use core::ops::Range;
 
@@ -18,11 +18,30 @@ pub struct Region {
     pub rows: Range<u32>,
 }
 
-/// A picture to be rendered.
+/// A picture to be rendered: a camera, a size, and how many rays a pixel gets.
+///
+/// ```
+/// use octray_core::camera::{Camera, Projection};
+/// use octray_core::frame::{Frame, Region};
+/// use octray_core::vec3::vec3;
+///
+/// let camera = Camera {
+///     origin: vec3(0.0, 0.0, 5.0),
+///     forward: vec3(0.0, 0.0, -1.0),
+///     right: vec3(0.4, 0.0, 0.0),
+///     up: vec3(0.0, 0.3, 0.0),
+///     projection: Projection::Perspective,
+/// };
+/// // One ray for each pixel of 320 × 240; nothing but background is outside the active region.
+/// let frame = Frame::new(camera, 320, 240, 1, 1, Region { columns: 40..280, rows: 30..240 });
+/// let (x, y) = frame.sample_position(160, 120, 0, 0);
+/// let ray = frame.camera().row(y).ray(x);
+/// assert!((x, y) == (1.0 / 320.0, -1.0 / 240.0) && ray.direction.z < -0.999f32);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Frame<S: Scalar>(FrameParams<S>);
 
-/// What a [`Frame`] consists of, to be written inv_height and read back.
+/// What a [`Frame`] consists of, to be stored and read back by [`Frame::from_params`].
 #[derive(Clone, Debug)]
 pub struct FrameParams<S: Scalar> {
     /// Where rays start.
@@ -45,12 +64,12 @@ pub struct FrameParams<S: Scalar> {
     pub sample_weight: S,
 }
 
-impl<S: Scalar> Frame<S> {
-    /// A picture of `width` × `height` pixels, each at least 1 and at most 65535.
+impl<S: TraceScalar> Frame<S> {
+    /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
     ///
-    /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (at most
-    /// 255) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen
-    /// but background.
+    /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (1 to 255 each
+    /// way) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen but
+    /// background.
     pub fn new(
         camera: Camera<S>,
         width: u32,
@@ -83,7 +102,7 @@ impl<S: Scalar> Frame<S> {
         Self(params)
     }
 
-    /// All there is to know of it.
+    /// What it consists of.
     pub const fn params(&self) -> &FrameParams<S> {
         &self.0
     }
@@ -98,7 +117,7 @@ impl<S: Scalar> Frame<S> {
         self.0.block
     }
 
-    /// Renders the active pixels of some rows, and hands each to `put` with its column, its row
+    /// Renders the active pixels of some rows, and passes each to `put` with its column, its row
     /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
     pub fn render<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
         &self,

@@ -1,4 +1,4 @@
-//! What an object is called: its kind, and its place among those of its kind.
+//! References to objects: a kind, and a place among the objects of that kind.
 
 /// The kind of an object, and with it the array of a scene's shapes that holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -27,8 +27,8 @@ impl ObjectKind {
     ];
 }
 
-/// One object: its kind and its place in that kind's array, in one word. In a list of links a
-/// mark tells the last one.
+/// One object: its kind and its place in that kind's array, in one word. The last reference of a
+/// list of links is marked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(transparent)]
 pub struct ObjectRef(u32);

@@ -1,16 +1,16 @@
-//! The light that a surface sends back by itself: ambient, diffuse and specular (thesis 3.2).
+//! The light of a surface itself: ambient, diffuse and specular (thesis 3.2).
 
 use crate::accel::Accelerator;
 use crate::features::{self, FeatureSet};
 use crate::object::ObjectRef;
 use crate::observe::{Observer, RayKind};
 use crate::ray::Ray;
-use crate::scalar::{Exponent, Scalar};
+use crate::scalar::{Exponent, Intensity, Scalar, Tolerance};
 use crate::scene::{Scene, Surface};
 use crate::shape::Contact;
 use crate::vec3::Vec3;
 
-/// A surface point as light sees it.
+/// What shading needs to know of a surface point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point<S> {
     pub(crate) contact: Contact<S>,
@@ -22,11 +22,11 @@ pub(crate) struct Point<S> {
     pub(crate) smooth: bool,
     /// The mirror direction; null where the surface has no use for it.
     pub(crate) mirror: Vec3<S>,
-    /// Whether it is a unit vector; what only shines needs that where a light is in sight.
+    /// Whether it is a unit vector. Where nothing is reflected, only visible lights need that.
     pub(crate) is_unit: bool,
-    /// How far off the surface new rays start; see [`Scalar::surface_error`].
+    /// How far off the surface new rays start; see [`Tolerance::surface_error`].
     pub(crate) error: S,
-    /// So far along the surface's own normal.
+    /// The same as a vector along the surface's own normal.
     pub(crate) offset: Vec3<S>,
 }
 
@@ -64,11 +64,12 @@ impl<S: Scalar> Point<S> {
     }
 }
 
-/// The sum over all lights. `shadow_cache` remembers for each light what blocked it last: most of the
-/// time the same object blocks it again, and one test finds that out.
+/// The sum over all lights. `shadow_cache` holds for each light what blocked it last: most of the
+/// time the same object blocks it again, and one test finds that out (Haines and Greenberg, "The
+/// Light Buffer: A Shadow-Testing Accelerator", 1986).
 #[inline(always)]
 pub(crate) fn direct_light<
-    S: Scalar,
+    S: Tolerance + Intensity,
     A: Accelerator<S, FEATURES>,
     O: Observer,
     const FEATURES: FeatureSet,
@@ -87,7 +88,7 @@ pub(crate) fn direct_light<
     }
     for (i, light) in scene.lights.iter().enumerate() {
         let to_light = light.position - point.contact.point;
-        // Most lights behind a surface are told without a root.
+        // Most lights behind a surface are found without a square root.
         if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
             continue;
         }
@@ -111,6 +112,8 @@ pub(crate) fn direct_light<
             observer.blocked();
             if let Some(place) = shadow_cache.get_mut(i) {
                 *place = blocker;
+            } else {
+                observer.uncached_light();
             }
             continue;
         }

@@ -2,233 +2,30 @@
 //! surface is like at a point.
 //!
 //! A hit counts only if the computed point lies in the shape's own box. That makes a hit, in any
-//! arithmetic however coarse, something that an octree of boxes cannot miss. For spheres and boxes
-//! in arithmetics that are [sound](Scalar::HITS_WITHIN_SLACK) it goes without asking.
+//! arithmetic however coarse, something that a tree of boxes cannot miss. For spheres and boxes in
+//! arithmetics whose [hits lie within the slack](crate::scalar::Tolerance::HITS_WITHIN_SLACK) it
+//! goes without asking.
 
+mod bands;
 mod cone;
+mod contact;
 mod cuboid;
+mod even_odd;
+mod patch;
+mod plane;
 mod polygon;
+mod shapes;
 mod sphere;
+mod triangle;
 
+pub use bands::{Bands, Outlines};
 pub use cone::Cone;
+pub use contact::Contact;
 pub use cuboid::Cuboid;
-pub(crate) use polygon::encloses;
-pub use polygon::{Bands, Outlines, Patch, Plane, Polygon, Triangle};
+pub(crate) use even_odd::encloses;
+pub use patch::Patch;
+pub use plane::Plane;
+pub use polygon::Polygon;
+pub use shapes::Shapes;
 pub use sphere::Sphere;
-
-use crate::features::{self, ALL_FEATURES, FeatureSet};
-use crate::object::{ObjectKind, ObjectRef};
-use crate::observe::Observer;
-use crate::ray::{Aabb, Ray};
-use crate::scalar::Scalar;
-use crate::vec3::{Vec3, vec3};
-
-/// All shapes of a scene, by kind. Kinds that `FEATURES` leaves out are never looked at.
-#[derive(Clone, Copy, Debug)]
-pub struct Shapes<'a, S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES> {
-    /// Spheres.
-    pub spheres: &'a [Sphere<S>],
-    /// Polygons of three vertices.
-    pub triangles: &'a [Triangle<S>],
-    /// Polygons of more.
-    pub polygons: &'a [Polygon<S>],
-    /// Truncated cones and cylinders.
-    pub cones: &'a [Cone<S>],
-    /// Boxes.
-    pub cuboids: &'a [Cuboid<S>],
-    /// The outlines of [`Shapes::polygons`].
-    pub outlines: Outlines<'a, S>,
-    /// How the normal varies over the triangles and polygons that are patches.
-    pub patches: &'a [Patch<S>],
-    /// The unit normals at the vertices of patches.
-    pub normals: &'a [Vec3<S>],
-    /// How far a hit may lie outside its shape for want of precision; see [`Aabb`].
-    pub slack: S,
-}
-
-/// What a surface is like at the point where a ray meets it.
-#[derive(Clone, Copy, Debug)]
-pub struct Contact<S> {
-    /// The point, refined onto the surface.
-    pub point: Vec3<S>,
-    /// The surface's own unit normal: outward for closed shapes, either way for flat ones.
-    pub outward: Vec3<S>,
-    /// The size of a curved shape, 0 for a flat one; see [`Scalar::surface_error`].
-    pub curvature_extent: S,
-    /// Whether the shape has an inside.
-    pub closed: bool,
-}
-
-impl<S: Scalar, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
-    /// Every object, kind by kind.
-    pub fn refs(&self) -> impl Iterator<Item = ObjectRef> + '_ {
-        ObjectKind::ALL.into_iter().flat_map(|kind| {
-            (0..self.count(kind) as u32).map(move |index| ObjectRef::new(kind, index))
-        })
-    }
-
-    /// How many objects there are.
-    pub fn len(&self) -> usize {
-        ObjectKind::ALL
-            .into_iter()
-            .map(|kind| self.count(kind))
-            .sum()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// How many objects of a kind there are.
-    pub const fn count(&self, kind: ObjectKind) -> usize {
-        match kind {
-            ObjectKind::Sphere => self.spheres.len(),
-            ObjectKind::Triangle => self.triangles.len(),
-            ObjectKind::Polygon => self.polygons.len(),
-            ObjectKind::Cone => self.cones.len(),
-            ObjectKind::Cuboid => self.cuboids.len(),
-        }
-    }
-
-    #[inline(always)]
-    fn sphere(&self, i: usize) -> Option<&Sphere<S>> {
-        enabled::<_, FEATURES>(features::SPHERES, self.spheres).get(i)
-    }
-
-    #[inline(always)]
-    fn triangle(&self, i: usize) -> Option<&Triangle<S>> {
-        enabled::<_, FEATURES>(features::TRIANGLES, self.triangles).get(i)
-    }
-
-    #[inline(always)]
-    fn polygon(&self, i: usize) -> Option<&Polygon<S>> {
-        enabled::<_, FEATURES>(features::POLYGONS, self.polygons).get(i)
-    }
-
-    #[inline(always)]
-    fn cone(&self, i: usize) -> Option<&Cone<S>> {
-        enabled::<_, FEATURES>(features::CONES, self.cones).get(i)
-    }
-
-    #[inline(always)]
-    fn cuboid(&self, i: usize) -> Option<&Cuboid<S>> {
-        enabled::<_, FEATURES>(features::CUBOIDS, self.cuboids).get(i)
-    }
-
-    #[inline(always)]
-    const fn outlines(&self) -> Outlines<'_, S> {
-        Outlines {
-            bands: enabled::<_, FEATURES>(features::BANDS, self.outlines.bands),
-            ..self.outlines
-        }
-    }
-
-    /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. The
-    /// observer is told how far the test goes, but not that there is one. On cores
-    /// that emulate floats one copy is all there is: that costs nothing, since the trees' walks keep
-    /// more in registers without it.
-    #[cfg_attr(octray_soft_float, inline(never))]
-    #[cfg_attr(not(octray_soft_float), inline(always))]
-    pub fn hit<O: Observer>(
-        &self,
-        object: ObjectRef,
-        ray: &Ray<S>,
-        limit: S,
-        observer: &mut O,
-    ) -> Option<S> {
-        let i = object.index();
-        match object.kind() {
-            ObjectKind::Sphere => self.sphere(i)?.hit(ray, limit, self.slack),
-            ObjectKind::Triangle => self.triangle(i)?.hit(ray, limit),
-            ObjectKind::Polygon => self.polygon(i)?.hit(ray, limit, &self.outlines(), observer),
-            ObjectKind::Cone => self.cone(i)?.hit(ray, limit, observer),
-            ObjectKind::Cuboid => self.cuboid(i)?.hit(ray, limit, self.slack),
-        }
-    }
-
-    /// Whether `ray` meets the object at 0 < t ≤ `limit`: [`Shapes::hit`], once more in the code
-    /// for where it is not the innermost loop.
-    #[inline(never)]
-    pub fn blocks<O: Observer>(
-        &self,
-        object: ObjectRef,
-        ray: &Ray<S>,
-        limit: S,
-        observer: &mut O,
-    ) -> bool {
-        self.hit(object, ray, limit, observer).is_some()
-    }
-
-    /// The box that every hit of the object lies in.
-    pub fn bounds(&self, object: ObjectRef) -> Aabb<S> {
-        let i = object.index();
-        let bounds = match object.kind() {
-            ObjectKind::Sphere => self.sphere(i).map(|s| s.bounds(self.slack)),
-            ObjectKind::Triangle => self.triangle(i).map(Triangle::bounds),
-            ObjectKind::Polygon => self.polygon(i).map(|p| p.bounds),
-            ObjectKind::Cone => self.cone(i).map(|c| c.bounds),
-            ObjectKind::Cuboid => self.cuboid(i).map(|c| c.bounds(self.slack)),
-        };
-        bounds.unwrap_or_default()
-    }
-
-    /// The surface at the point at distance `t` of a ray that meets the object there.
-    #[inline(always)]
-    pub fn contact(&self, object: ObjectRef, ray: &Ray<S>, t: S) -> Contact<S> {
-        let i = object.index();
-        let contact = match object.kind() {
-            ObjectKind::Sphere => self.sphere(i).map(|s| s.contact(ray.at(t))),
-            ObjectKind::Triangle => self.triangle(i).map(|p| p.plane.contact(ray.at(t))),
-            ObjectKind::Polygon => self.polygon(i).map(|p| p.plane.contact(ray.at(t))),
-            ObjectKind::Cone => self.cone(i).map(|c| c.contact(ray.at(t))),
-            ObjectKind::Cuboid => self.cuboid(i).map(|c| c.contact(ray, t)),
-        };
-        contact.unwrap_or(Contact {
-            point: ray.at(t),
-            outward: -ray.direction,
-            curvature_extent: S::ZERO,
-            closed: false,
-        })
-    }
-
-    /// The interpolated unit normal of patch `patch` at a point of `object`.
-    pub fn patch_normal(&self, object: ObjectRef, patch: u32, point: Vec3<S>) -> Option<Vec3<S>> {
-        let patch = enabled::<_, FEATURES>(features::PATCHES, self.patches).get(patch as usize)?;
-        match object.kind() {
-            ObjectKind::Triangle => {
-                let triangle = self.triangle(object.index())?;
-                patch.normal(
-                    triangle.plane.project(point),
-                    &triangle.corners,
-                    self.normals,
-                )
-            }
-            ObjectKind::Polygon => {
-                let polygon = self.polygon(object.index())?;
-                let corners = polygon.corners(self.outlines.corners)?;
-                patch.normal(polygon.plane.project(point), corners, self.normals)
-            }
-            _ => None,
-        }
-    }
-}
-
-/// The things, or none of them if they are not needed: then what is done with them is not compiled.
-#[inline(always)]
-const fn enabled<T, const FEATURES: FeatureSet>(what: FeatureSet, things: &[T]) -> &[T] {
-    if features::contains(FEATURES, what) {
-        things
-    } else {
-        &[]
-    }
-}
-
-/// A box around `centre` that extends `half_extent` in each direction.
-fn around<S: Scalar>(centre: Vec3<S>, half_extent: S) -> Aabb<S> {
-    let half_extent = vec3(half_extent, half_extent, half_extent);
-    Aabb {
-        low: centre - half_extent,
-        high: centre + half_extent,
-    }
-}
+pub use triangle::Triangle;

@@ -34,6 +34,7 @@ pub mod model;
 pub mod parse;
 pub mod plan;
 pub mod quantise;
+pub mod saturation;
 pub mod target;
 pub mod tree;
 pub mod write;

@@ -1,8 +1,9 @@
-//! The numbers that boxes are cut with, apart from the scene's own arithmetic.
+//! The numbers that boxes are held in, apart from the scene's own arithmetic.
 
 use core::fmt::Debug;
 
-/// A plane's coordinate, and a distance along a ray.
+/// A number for coordinates of boxes and distances along a ray: `f32`, `f64`, or the bits of a
+/// fixed-point format as `i32` or `i64`.
 pub trait BoundScalar: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     /// 0.
     const ZERO: Self;
@@ -14,40 +15,17 @@ pub trait BoundScalar: Copy + Debug + Default + PartialOrd + Send + Sync + 'stat
     /// What a distance along an axis is multiplied with to give the distance along the ray.
     type Inverse: Copy + Debug;
 
-    /// The distance at which a ray from `origin` comes to the plane; monotone in the plane.
+    /// The distance at which a ray from `origin` meets the plane; monotone in the plane.
     fn distance(self, origin: Self, inverse: Self::Inverse) -> Self;
 
-    /// The coordinate of a box's low face that is sure to let in all that lies above `self`.
+    /// Rounds a box's low face down, so far that no point above `self` is left out for rounding.
     fn round_down(self) -> Self;
 
-    /// The coordinate of a box's high face that is sure to let in all that lies below `self`.
+    /// Rounds a box's high face up, so far that no point below `self` is left out for rounding.
     fn round_up(self) -> Self;
 
     /// The middle of two coordinates.
     fn midpoint(self, other: Self) -> Self;
-
-    /// Clips a ray against eight boxes. Returns the distance at which each is entered, not less
-    /// than 0, and a bit for each box that is entered before it is left and not beyond `limit`.
-    #[inline(always)]
-    fn clip_boxes(
-        boxes: SlabPlanes<'_, Self>,
-        origin: [Self; 3],
-        inv_direction: &[InvDirection<Self>; 3],
-        limit: Self,
-    ) -> ([Self; 8], u32) {
-        let mut entry = [Self::ZERO; 8];
-        let mut exit = [limit; 8];
-        for i in 0..3 {
-            for k in 0..8 {
-                let near = boxes.near[i][k].distance(origin[i], inv_direction[i].near);
-                let far = boxes.far[i][k].distance(origin[i], inv_direction[i].far);
-                entry[k] = near.max(entry[k]);
-                exit[k] = far.min(exit[k]);
-            }
-        }
-        let met = |mask, k: usize| mask | u32::from(entry[k] <= exit[k]) << k;
-        (entry, (0..8).fold(0, met))
-    }
 
     /// The smaller of two.
     #[inline(always)]
@@ -86,39 +64,8 @@ pub trait BoundScalar: Copy + Debug + Default + PartialOrd + Send + Sync + 'stat
     fn bin_index(self, low: Self, high: Self, bins: u32) -> u32;
 }
 
-/// The planes of eight boxes that a ray comes to first and last on each axis.
-#[derive(Clone, Copy, Debug)]
-pub struct SlabPlanes<'a, P> {
-    /// Where it may enter.
-    pub near: [&'a [P; 8]; 3],
-    /// Where it may leave.
-    pub far: [&'a [P; 8]; 3],
-}
-
-/// The reciprocal of a ray's direction along one axis.
-///
-/// Let u be the unit of rounding, d the direction's component, o the origin's, [l, h] a box's side
-/// widened by [`BoundScalar::round_down`] and [`BoundScalar::round_up`], and P = o ⊕ (t ⊗ d) a point with
-/// l' ≤ P ≤ h', where l' and h' are the sides before widening. Say d > 0. With three roundings
-/// between P and t, t d (1 + 3u) ≥ l' − u|l'| − o and, with three more in the walk, the distance
-/// (l − o) ⊗ 1/d is at most t (1 + 6u) if l ≤ l' − u|l'|: that is what the widening is for. `near`
-/// is 1/d less 8u of it, so the box is entered at ≤ t; `far` is 1/d and 8u more, so it is left at
-/// ≥ t. In fixed point the same holds with absolute errors: P is off by half a unit, and the
-/// widening is four. A component that is 0, or so small that o ⊕ (t ⊗ d) = o, is replaced by the
-/// smallest one that is not: a box whose widened side holds o is entered before every t and left
-/// after, one whose side does not hold it is missed.
-#[derive(Clone, Copy, Debug)]
-pub struct InvDirection<P: BoundScalar> {
-    /// Whether the ray goes down the axis.
-    pub negative: bool,
-    /// For the plane where a box is entered.
-    pub near: P::Inverse,
-    /// For the plane where it is left.
-    pub far: P::Inverse,
-}
-
 macro_rules! float_bound {
-    ($t:ident, unit: $unit:expr, least: $least:expr $(, $clip:item)?) => {
+    ($t:ident, unit: $unit:expr, least: $least:expr) => {
         impl BoundScalar for $t {
             const ZERO: Self = 0.0;
             const MAX: Self = $t::MAX;
@@ -130,8 +77,6 @@ macro_rules! float_bound {
             fn distance(self, origin: Self, inverse: Self) -> Self {
                 (self - origin) * inverse
             }
-
-            $($clip)?
 
             fn round_down(self) -> Self {
                 self - (self.abs() * (2.0 * $unit) + $least)
@@ -174,54 +119,17 @@ macro_rules! float_bound {
                 (position as u32).min(bins - 1)
             }
         }
-
-        impl InvDirection<$t> {
-            /// Of a direction's component.
-            #[inline(always)]
-            pub fn of(d: $t) -> Self {
-                // Scenes are scaled to a size of about 1, so this moves nothing by a unit.
-                const LEAST: $t = $least * $least;
-                let d = if d.abs() < LEAST {
-                    LEAST.copysign(d)
-                } else {
-                    d
-                };
-                let inverse = 1.0 / d;
-                Self {
-                    negative: d < 0.0,
-                    near: inverse * (1.0 - 8.0 * $unit),
-                    far: inverse * (1.0 + 8.0 * $unit),
-                }
-            }
-        }
     };
 }
 
-float_bound!(
-    f32, unit: 1.0 / (1u64 << 24) as f32, least: 1.0 / (1u64 << 40) as f32,
-    // The default loop does not become vector instructions by itself; the results are the same.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    #[inline(always)]
-    fn clip_boxes(boxes: SlabPlanes<'_, Self>, origin: [Self; 3], inv_direction: &[InvDirection<Self>; 3], limit: Self) -> ([Self; 8], u32) {
-        use wide::f32x8;
-        let (mut entry, mut exit) = (f32x8::splat(0.0), f32x8::splat(limit));
-        for i in 0..3 {
-            let o = f32x8::splat(origin[i]);
-            let near = (f32x8::new(*boxes.near[i]) - o) * f32x8::splat(inv_direction[i].near);
-            let far = (f32x8::new(*boxes.far[i]) - o) * f32x8::splat(inv_direction[i].far);
-            entry = near.fast_max(entry);
-            exit = far.fast_min(exit);
-        }
-        (entry.to_array(), entry.simd_le(exit).to_bitmask())
-    }
-);
+float_bound!(f32, unit: 1.0 / (1u64 << 24) as f32, least: 1.0 / (1u64 << 40) as f32);
 float_bound!(f64, unit: 1.0 / (1u64 << 53) as f64, least: 1.0 / (1u64 << 60) as f64);
 
-/// A signed mantissa and a right shift.
+/// The reciprocal of a direction in fixed point: a signed mantissa and a right shift.
 #[derive(Clone, Copy, Debug)]
 pub struct Shifted<M> {
-    mantissa: M,
-    shift: u8,
+    pub(super) mantissa: M,
+    pub(super) shift: u8,
 }
 
 macro_rules! fixed_bound {
@@ -289,26 +197,6 @@ macro_rules! fixed_bound {
             fn bin_index(self, low: Self, high: Self, bins: u32) -> u32 {
                 let width = (high.wrapping_sub(low) as $unsigned) / bins as $unsigned + 1;
                 ((self.wrapping_sub(low) as $unsigned / width) as u32).min(bins - 1)
-            }
-        }
-
-        impl InvDirection<$t> {
-            /// Of a component with the given sign whose reciprocal is mantissa · 2^−shift, with a
-            /// relative error below 2^−27; the mantissa has the component's sign.
-            #[inline(always)]
-            pub fn new(negative: bool, mantissa: $t, shift: u8) -> Self {
-                let slack = if negative { -16 } else { 16 };
-                Self {
-                    negative,
-                    near: Shifted {
-                        mantissa: mantissa - slack,
-                        shift,
-                    },
-                    far: Shifted {
-                        mantissa: mantissa.saturating_add(slack),
-                        shift,
-                    },
-                }
             }
         }
     };

@@ -1,45 +1,26 @@
 //! No tree: every object is tested. The oracle for the trees, and the cheapest for a handful.
 
-use super::query::Query;
-use super::{Accelerator, Hit};
+use super::query::{Query, accelerate};
 use crate::features::FeatureSet;
 use crate::object::ObjectRef;
 use crate::observe::Observer;
-use crate::ray::Ray;
-use crate::scalar::Scalar;
-use crate::scene::Scene;
+use crate::scalar::Tolerance;
 
 /// A plain list of objects, none of them marked but possibly the last.
+///
+/// [`Scene`](crate::scene::Scene) has an example.
 #[derive(Clone, Copy, Debug)]
 pub struct BruteForce<'a>(pub &'a [ObjectRef]);
 
-impl<S: Scalar, const FEATURES: FeatureSet> Accelerator<S, FEATURES> for BruteForce<'_> {
-    type Stack = ();
-
-    #[inline(never)]
-    fn nearest<O: Observer>(
+impl BruteForce<'_> {
+    #[inline(always)]
+    fn walk<S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
         &self,
-        scene: &Scene<'_, S, FEATURES>,
-        ray: &Ray<S>,
+        query: &mut Query<'_, S, O, ANY, FEATURES>,
         (): &mut (),
-        observer: &mut O,
-    ) -> Option<Hit<S>> {
-        let mut query = Query::<_, _, false, FEATURES>::new(scene, ray, scene.diameter, observer);
+    ) {
         query.test_list(self.0);
-        query.hit()
-    }
-
-    #[inline(never)]
-    fn any_hit<O: Observer>(
-        &self,
-        scene: &Scene<'_, S, FEATURES>,
-        ray: &Ray<S>,
-        limit: S,
-        (): &mut (),
-        observer: &mut O,
-    ) -> Option<ObjectRef> {
-        let mut query = Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
-        query.test_list(self.0);
-        query.found
     }
 }
+
+accelerate!([] BruteForce<'_>, stack: (), scalar: Tolerance);

@@ -1,14 +1,14 @@
-//! What every tree does with the objects it comes to.
+//! A query: a ray, and what a walk has found of what it meets.
 
-use super::Hit;
+use super::accelerator::Hit;
 use crate::features::FeatureSet;
 use crate::object::ObjectRef;
 use crate::observe::Observer;
 use crate::ray::Ray;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, Tolerance};
 use crate::scene::Scene;
 
-/// A search for the first object a ray meets, or with `ANY` for any object nearer than the limit.
+/// A query for the first object a ray meets, or with `ANY` for any object nearer than the limit.
 pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: FeatureSet> {
     pub(super) scene: &'a Scene<'a, S, FEATURES>,
     pub(super) ray: &'a Ray<S>,
@@ -18,7 +18,7 @@ pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: Featu
     pub(super) observer: &'a mut O,
 }
 
-impl<'a, S: Scalar, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
+impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     Query<'a, S, O, ANY, FEATURES>
 {
     #[inline(always)]
@@ -82,3 +82,52 @@ fn precedes<S: Scalar, const FEATURES: FeatureSet>(
     let id = |object| scene.attributes_of(object).id;
     id(object) < id(found)
 }
+
+/// Implements [`Accelerator`](super::Accelerator) by a type's method `walk`, which takes a query and
+/// a stack.
+///
+/// Never inlined: with one copy of the walk per use the tracer fits the code cache.
+macro_rules! accelerate {
+    ([$($generics:tt)*] $accelerator:ty, stack: $stack:ty, scalar: $scalar:ident) => {
+        impl<S: $scalar, const FEATURES: $crate::features::FeatureSet $($generics)*>
+            $crate::accel::accelerator::Accelerator<S, FEATURES> for $accelerator
+        {
+            type Stack = $stack;
+
+            #[inline(never)]
+            fn nearest<O: $crate::observe::Observer>(
+                &self,
+                scene: &$crate::scene::Scene<'_, S, FEATURES>,
+                ray: &$crate::ray::Ray<S>,
+                stack: &mut $stack,
+                observer: &mut O,
+            ) -> Option<$crate::accel::accelerator::Hit<S>> {
+                let mut query = $crate::accel::query::Query::<_, _, false, FEATURES>::new(
+                    scene,
+                    ray,
+                    scene.diameter,
+                    observer,
+                );
+                self.walk(&mut query, stack);
+                query.hit()
+            }
+
+            #[inline(never)]
+            fn any_hit<O: $crate::observe::Observer>(
+                &self,
+                scene: &$crate::scene::Scene<'_, S, FEATURES>,
+                ray: &$crate::ray::Ray<S>,
+                limit: S,
+                stack: &mut $stack,
+                observer: &mut O,
+            ) -> Option<$crate::object::ObjectRef> {
+                let mut query =
+                    $crate::accel::query::Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+                self.walk(&mut query, stack);
+                query.found
+            }
+        }
+    };
+}
+
+pub(super) use accelerate;

@@ -1,18 +1,15 @@
 //! `f32` and `f64`: hardware or software floating point, with libm for the roots
 //! but where an instruction takes them ([`root`]).
 
-use super::whole::whole;
-use super::{Exponent, Quantize, Scalar, root};
-use crate::accel::InvDirection;
+use super::{Exponent, Intensity, Ratio, Scalar, Tolerance, root};
 
 /// One definition of every operation for both widths.
 macro_rules! float {
-    ($t:ident, $sqrt:path, $power:path, whole: $whole:ident, position: $p:expr, curvature: $r:expr) => {
+    ($t:ident, $sqrt:path, $power:path, position: $p:expr, curvature: $r:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const MAX: Self = $t::MAX;
-            const EXACT_ROOTS: bool = true;
 
             type Wide = Self;
 
@@ -60,16 +57,6 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn whole_reciprocal(n: u32) -> Self {
-                1.0 / (n as $t)
-            }
-
-            #[inline(always)]
-            fn ratio(numerator: i32, n: Self) -> Self {
-                numerator as $t * n
-            }
-
-            #[inline(always)]
             fn scale_to_index(self, n: u32) -> u32 {
                 (self * n as $t) as u32
             }
@@ -87,11 +74,6 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn power(self, exponent: Exponent<Self>) -> Self {
-                $power(self, exponent)
-            }
-
-            #[inline(always)]
             fn to_local(self, _: i8) -> Self {
                 self
             }
@@ -100,6 +82,12 @@ macro_rules! float {
             fn to_global(self, _: i8) -> Self {
                 self
             }
+        }
+
+        impl Tolerance for $t {
+            const EXACT_ROOTS: bool = true;
+
+            const HITS_WITHIN_SLACK: bool = true;
 
             #[inline(always)]
             fn surface_error(position: Self, curvature_extent: Self) -> Self {
@@ -107,15 +95,29 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn level(self) -> u8 {
-                // The cast saturates.
-                (self * 255.0 + 0.5) as u8
-            }
-
-            #[inline(always)]
             fn with_rounding_margin(self) -> Self {
                 // Four roundings.
                 self * (1.0 + 2.0 * $t::EPSILON)
+            }
+        }
+
+        impl Ratio for $t {
+            #[inline(always)]
+            fn whole_reciprocal(n: u32) -> Self {
+                1.0 / (n as $t)
+            }
+
+            #[inline(always)]
+            fn ratio(numerator: i32, n: Self) -> Self {
+                numerator as $t * n
+            }
+        }
+
+        impl Intensity for $t {
+            #[inline(always)]
+            fn level(self) -> u8 {
+                // The cast saturates.
+                (self * 255.0 + 0.5) as u8
             }
 
             #[inline(always)]
@@ -123,77 +125,16 @@ macro_rules! float {
                 self + light
             }
 
-            // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
-            // a unit in `f32`, 2⁷ on the grid; points are off by a few.
             #[inline(always)]
-            fn to_grid(self) -> i32 {
-                $whole::<29>(self)
-            }
-
-            const GRID_SLACK: i32 = 1 << 10;
-
-            const HITS_WITHIN_SLACK: bool = true;
-
-            #[inline(always)]
-            fn direction_q30(self) -> i32 {
-                $whole::<30>(self)
-            }
-
-            type Bound = Self;
-
-            #[inline(always)]
-            fn to_bound(self) -> Self {
-                self
-            }
-
-            #[inline(always)]
-            fn from_bound(bound: Self) -> Self {
-                bound
-            }
-
-            #[inline(always)]
-            fn inv_direction(self) -> InvDirection<Self> {
-                InvDirection::<Self>::of(self)
+            fn power(self, exponent: Exponent<Self>) -> Self {
+                $power(self, exponent)
             }
         }
     };
 }
 
-float!(f32, root::sqrt_f32, power_f32, whole: whole, position: 1.0 / 524_288.0, curvature: 1.0 / 524_288.0);
-float!(f64, libm::sqrt, power_f64, whole: whole_f64, position: 1.0 / (1u64 << 44) as f64, curvature: 1.0 / (1u64 << 44) as f64);
-
-impl Quantize for f32 {
-    const NAME: &'static str = "f32";
-    const FRACTION_BITS: Option<u32> = None;
-    const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        x as f32
-    }
-
-    fn to_f64(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Quantize for f64 {
-    const NAME: &'static str = "f64";
-    const FRACTION_BITS: Option<u32> = None;
-    const SLACK: f64 = 1.0 / (1u64 << 48) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        x
-    }
-
-    fn to_f64(self) -> f64 {
-        self
-    }
-}
-
-#[inline(always)]
-fn whole_f64<const BITS: u32>(x: f64) -> i32 {
-    (x * (1u64 << BITS) as f64) as i32
-}
+float!(f32, root::sqrt_f32, power_f32, position: 1.0 / 524_288.0, curvature: 1.0 / 524_288.0);
+float!(f64, libm::sqrt, power_f64, position: 1.0 / (1u64 << 44) as f64, curvature: 1.0 / (1u64 << 44) as f64);
 
 #[inline(always)]
 fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {

@@ -1,14 +1,14 @@
 //! The truncated cone, the cylinder included: its side surface, without caps.
 
-use super::Contact;
+use super::contact::Contact;
 use crate::observe::Observer;
 use crate::ray::{Aabb, Ray};
-use crate::scalar::Scalar;
+use crate::scalar::Tolerance;
 use crate::vec3::Vec3;
 
 /// The side of a truncated cone.
 ///
-/// Lengths marked *local* are scaled by [`Scalar::to_local`] with `exponent`, which brings the
+/// Lengths marked *local* are scaled by [`to_local`](crate::scalar::Scalar::to_local) with `exponent`, which brings the
 /// radius of the bounding sphere to [½, 1) in fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
@@ -33,7 +33,7 @@ pub struct Cone<S> {
     pub bounds: Aabb<S>,
 }
 
-impl<S: Scalar> Cone<S> {
+impl<S: Tolerance> Cone<S> {
     /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale:
     /// from a distant origin it would cancel.
     #[inline(always)]

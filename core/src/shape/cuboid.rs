@@ -1,8 +1,8 @@
 //! The axis-aligned box.
 
-use super::Contact;
+use super::contact::Contact;
 use crate::ray::{Aabb, Ray};
-use crate::scalar::Scalar;
+use crate::scalar::Tolerance;
 use crate::vec3::{Axis, Vec3, vec3};
 
 /// A box.
@@ -21,7 +21,7 @@ struct Crossing<S> {
     exit: (S, Axis),
 }
 
-impl<S: Scalar> Cuboid<S> {
+impl<S: Tolerance> Cuboid<S> {
     /// The slab method (Kay and Kajiya 1986). A ray along a slab is inside or outside of it for
     /// good, its faces included; no quotient is formed. A ray through an edge meets the box: the
     /// far side is taken for as far as rounding can have brought it nearer.

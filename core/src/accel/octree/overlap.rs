@@ -1,23 +1,24 @@
 //! Whether an object's surface touches a cell: never "no" where a ray can find a hit in the cell,
 //! and seldom "yes" elsewhere.
 
-use super::build;
-use super::octree::LinkBy;
+use super::LinkBy;
+use crate::accel::boxes::to_bounds;
+use crate::accel::scalar::AccelScalar;
 use crate::object::{ObjectKind, ObjectRef};
 use crate::ray::Aabb;
 use crate::scalar::Scalar;
-use crate::shape::{Cone, Polygon, Shapes, Triangle};
+use crate::shape::{Cone, Plane, Polygon, Shapes, Triangle, encloses};
 use crate::vec3::{Axis, Vec3, vec3};
 
 /// Whether `object` belongs into the cell. All tests take the cell wider by the scene's slack,
 /// which bounds how far a computed hit lies off its surface.
-pub(super) fn overlaps<S: Scalar>(
+pub(super) fn overlaps<S: AccelScalar>(
     shapes: &Shapes<'_, S>,
     object: ObjectRef,
     cell: &Aabb<S::Bound>,
     link: LinkBy,
 ) -> bool {
-    let bounds = build::to_bounds(shapes.bounds(object));
+    let bounds = to_bounds(shapes.bounds(object));
     let overlap = Axis::ALL
         .into_iter()
         .all(|a| bounds.low[a] <= cell.high[a] && cell.low[a] <= bounds.high[a]);
@@ -34,28 +35,28 @@ pub(super) fn overlaps<S: Scalar>(
         ObjectKind::Sphere => shapes
             .spheres
             .get(i)
-            .is_none_or(|s| shell(s.centre, s.radius, shapes.slack, &cell)),
+            .is_none_or(|s| sphere_surface(s.centre, s.radius, shapes.slack, &cell)),
         ObjectKind::Cuboid => shapes.cuboids.get(i).is_none_or(|c| {
-            // The surface alone: a cell wholly inside sees nothing.
+            // The surface alone: no ray meets it in a cell wholly inside.
             Axis::ALL
                 .into_iter()
                 .any(|a| cell.low[a] <= c.low[a] || cell.high[a] >= c.high[a])
         }),
-        ObjectKind::Cone => shapes.cones.get(i).is_none_or(|c| cone(c, &cell)),
+        ObjectKind::Cone => shapes.cones.get(i).is_none_or(|c| cone_side(c, &cell)),
         ObjectKind::Triangle => shapes
             .triangles
             .get(i)
-            .is_none_or(|Triangle { plane, corners, .. }| flat(plane, corners, &cell)),
+            .is_none_or(|Triangle { plane, corners, .. }| polygon(plane, corners, &cell)),
         ObjectKind::Polygon => shapes.polygons.get(i).is_none_or(|p: &Polygon<S>| {
             p.corners(shapes.outlines.corners)
-                .is_none_or(|corners| flat(&p.plane, corners, &cell))
+                .is_none_or(|corners| polygon(&p.plane, corners, &cell))
         }),
     }
 }
 
 /// A sphere's surface: the cell's nearest point lies inside of it and its farthest outside
 /// (Arvo, "A simple method for box-sphere intersection testing", Graphics Gems, 1990).
-fn shell<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Aabb<S>) -> bool {
+fn sphere_surface<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Aabb<S>) -> bool {
     let (mut nearest, mut farthest) = (Vec3::ZERO, Vec3::ZERO);
     for a in Axis::ALL {
         let (below, above) = (cell.low[a] - centre[a], centre[a] - cell.high[a]);
@@ -68,7 +69,7 @@ fn shell<S: Scalar>(centre: Vec3<S>, radius: S, slack: S, cell: &Aabb<S>) -> boo
 }
 
 /// A cone's side against the sphere around the cell.
-fn cone<S: Scalar>(cone: &Cone<S>, cell: &Aabb<S>) -> bool {
+fn cone_side<S: Scalar>(cone: &Cone<S>, cell: &Aabb<S>) -> bool {
     let half = |low: S, high: S| (high - low).quotient(S::ONE + S::ONE);
     let sides = vec3(
         half(cell.low.x, cell.high.x),
@@ -93,7 +94,7 @@ fn cone<S: Scalar>(cone: &Cone<S>, cell: &Aabb<S>) -> bool {
 /// the cell's cut with its plane (Green and Hatch, "Fast polygon-cube intersection testing",
 /// Graphics Gems V, 1995). In the polygon's projection the cut is bounded by the cell's two
 /// other sides and by two lines on which the third coordinate reaches the cell's faces.
-fn flat<S: Scalar>(plane: &crate::shape::Plane<S>, corners: &[[S; 2]], cell: &Aabb<S>) -> bool {
+fn polygon<S: Scalar>(plane: &Plane<S>, corners: &[[S; 2]], cell: &Aabb<S>) -> bool {
     // The corners of the cell lowest and highest along the normal lie on either side.
     let (mut low, mut high) = (cell.low, cell.high);
     for a in Axis::ALL {
@@ -139,7 +140,7 @@ fn flat<S: Scalar>(plane: &crate::shape::Plane<S>, corners: &[[S; 2]], cell: &Aa
     // through the plane gives a point.
     let along = (-below).quotient(above - below);
     let point = low + (high - low) * along;
-    crate::shape::encloses(corners, [point[u], point[v]])
+    encloses(corners, [point[u], point[v]])
 }
 
 /// Whether a part of the segment is inside all bounds, given its ends' distances inside of each.

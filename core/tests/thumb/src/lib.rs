@@ -2,16 +2,19 @@
 //! tracing every shape. Built for a target without floating point, to see what it links.
 #![no_std]
 
+use octray_core::accel::{
+    BruteForce, BuildOptions, Bvh8, Bvh8Memory, CompactBvh8, CompactStack, LinkBy, Octree,
+    OctreeNode, OctreeVariant, TraversalStack,
+};
 use octray_core::camera::Camera;
-use octray_core::accel::{BruteForce, BuildOptions, Bvh8, Bvh8Memory, CompactBvh8, CompactStack, LinkBy, Octree, OctreeNode, OctreeVariant, TraversalStack};
 use octray_core::frame::{Frame, Region};
-use octray_core::ray::Aabb;
-use octray_core::scalar::{Fixed, Scalar};
-use octray_core::scene::Scene;
 use octray_core::object::ObjectRef;
+use octray_core::ray::Aabb;
+use octray_core::scalar::{Fixed, Intensity, Scalar};
+use octray_core::scene::Scene;
 use octray_core::trace::{Tracer, Workspace};
 
-type Number = Fixed<28, false>;
+type Number = Fixed<28>;
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -47,9 +50,9 @@ macro_rules! render {
     }};
 }
 
-/// Renders with a tight tree built here.
+/// Renders with an 8-wide BVH built here.
 #[unsafe(no_mangle)]
-pub fn octray_tight(
+pub fn octray_bvh8(
     scene: &Scene<'_, Number>,
     memory: Bvh8Memory<'_, i32>,
     camera: &Camera<Number>,
@@ -63,7 +66,7 @@ pub fn octray_tight(
 
 /// Renders with the thesis's trees built here.
 #[unsafe(no_mangle)]
-pub fn octray_octants(
+pub fn octray_octree(
     scene: &Scene<'_, Number>,
     nodes: &mut [OctreeNode<i32>],
     links: &mut [ObjectRef],
@@ -80,7 +83,7 @@ pub fn octray_octants(
 
 /// Renders without a tree.
 #[unsafe(no_mangle)]
-pub fn octray_list(
+pub fn octray_brute_force(
     scene: &Scene<'_, Number>,
     objects: &[ObjectRef],
     camera: &Camera<Number>,
@@ -90,9 +93,9 @@ pub fn octray_list(
     render!(scene, camera, &BruteForce(objects), workspace, row);
 }
 
-/// Renders with a packed tree built here.
+/// Renders with a compact BVH built here.
 #[unsafe(no_mangle)]
-pub fn octray_packed(
+pub fn octray_compact_bvh8(
     scene: &Scene<'_, Number>,
     words: &mut [u32],
     links: &mut [ObjectRef],
@@ -101,7 +104,9 @@ pub fn octray_packed(
     workspace: &mut Workspace<'_, Number, CompactStack>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = CompactBvh8::build(&scene.shapes, scene.diameter, words, links, boxes, OPTIONS) {
+    if let Ok((tree, _)) =
+        CompactBvh8::build(&scene.shapes, scene.diameter, words, links, boxes, OPTIONS)
+    {
         render!(scene, camera, &tree, workspace, row);
     }
 }
