@@ -5,9 +5,11 @@ use crate::options::{Arith, Link, Tree, TreeOptions, ViewOptions};
 use crate::ready::{Ready, intensity, level};
 use crate::{Built, Engine, Octree};
 use octray_core::accel::{self, BuildOptions, BuildStats, COMPACT_MAX_DEPTH, OctreeVariant};
-use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{self, Overflow, Prepared, View};
+use octray_scenes::saturation::PerThread;
 use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
 use std::num::{NonZeroU32, NonZeroUsize};
 
@@ -42,13 +44,13 @@ pub fn build(
         Arith::Approx0 => request.build::<Approx<0>>(),
         Arith::Approx1 => request.build::<Approx<1>>(),
         Arith::Approx2 => request.build::<Approx<2>>(),
-        Arith::I24F8 => request.build::<Fixed<8, true>>(),
-        Arith::I20F12 => request.build::<Fixed<12, true>>(),
-        Arith::I16F16 => request.build::<Fixed<16, true>>(),
-        Arith::I12F20 => request.build::<Fixed<20, true>>(),
-        Arith::I8F24 => request.build::<Fixed<24, true>>(),
-        Arith::I4F28 => request.build::<Fixed<28, true>>(),
-        Arith::I32F32 => request.build::<Fixed64>(),
+        Arith::I24F8 => request.build::<Fixed<8, PerThread>>(),
+        Arith::I20F12 => request.build::<Fixed<12, PerThread>>(),
+        Arith::I16F16 => request.build::<Fixed<16, PerThread>>(),
+        Arith::I12F20 => request.build::<Fixed<20, PerThread>>(),
+        Arith::I8F24 => request.build::<Fixed<24, PerThread>>(),
+        Arith::I4F28 => request.build::<Fixed<28, PerThread>>(),
+        Arith::I32F32 => request.build::<Fixed64<PerThread>>(),
         Arith::Auto => build(scene, Arith::finest(scene, view.max_depth), tree, view),
     }
 }
@@ -79,18 +81,18 @@ pub fn build_small(
         "approx0" => request.small::<Approx<0>>(),
         "approx1" => request.small::<Approx<1>>(),
         "approx2" => request.small::<Approx<2>>(),
-        "i24f8" => request.small::<Fixed<8, true>>(),
-        "i22f10" => request.small::<Fixed<10, true>>(),
-        "i20f12" => request.small::<Fixed<12, true>>(),
-        "i18f14" => request.small::<Fixed<14, true>>(),
-        "i16f16" => request.small::<Fixed<16, true>>(),
-        "i14f18" => request.small::<Fixed<18, true>>(),
-        "i12f20" => request.small::<Fixed<20, true>>(),
-        "i10f22" => request.small::<Fixed<22, true>>(),
-        "i8f24" => request.small::<Fixed<24, true>>(),
-        "i6f26" => request.small::<Fixed<26, true>>(),
-        "i4f28" => request.small::<Fixed<28, true>>(),
-        "i32f32" => request.small::<Fixed64>(),
+        "i24f8" => request.small::<Fixed<8, PerThread>>(),
+        "i22f10" => request.small::<Fixed<10, PerThread>>(),
+        "i20f12" => request.small::<Fixed<12, PerThread>>(),
+        "i18f14" => request.small::<Fixed<14, PerThread>>(),
+        "i16f16" => request.small::<Fixed<16, PerThread>>(),
+        "i14f18" => request.small::<Fixed<18, PerThread>>(),
+        "i12f20" => request.small::<Fixed<20, PerThread>>(),
+        "i10f22" => request.small::<Fixed<22, PerThread>>(),
+        "i8f24" => request.small::<Fixed<24, PerThread>>(),
+        "i6f26" => request.small::<Fixed<26, PerThread>>(),
+        "i4f28" => request.small::<Fixed<28, PerThread>>(),
+        "i32f32" => request.small::<Fixed64<PerThread>>(),
         other => Err(Error::Format(other.into())),
     }
 }

@@ -2,7 +2,7 @@
 
 use octray_core::accel::{Accelerator, BoundScalar, BruteForce, Bvh8, CompactBvh8, Octree};
 use octray_core::object::ObjectRef;
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_scenes::tree::{OctantTree, PackedTree, TightTree};
 
 /// A tree in memory of its own.

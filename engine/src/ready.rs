@@ -8,7 +8,7 @@ use octray_core::accel::Accelerator;
 use octray_core::frame::Region;
 use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::quantise::Prepared;

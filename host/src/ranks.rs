@@ -105,7 +105,7 @@ impl Tally {
             rays: self.rays,
             blocked: self.blocked,
             hits: self.hits,
-            searches: (self.searches).map(|(counts, tests, met)| {
+            queries: (self.searches).map(|(counts, tests, met)| {
                 let [steps, children, outlines, edges, sides] = counts;
                 QueryCounts {
                     steps,
@@ -118,7 +118,7 @@ impl Tally {
                 }
             }),
             deepest: self.deepest,
-            search: 0,
+            query: 0,
         }
     }
 }

@@ -116,7 +116,7 @@ pub fn bake_as<S: Literal>(scene: &Scene, options: &Options<'_>) -> Result<Baked
         Tree::None => (source::Tree::None, every),
         Tree::Packed(options) => {
             let tree = grow(&mut prepared.scene, options)?;
-            let nodes = tree.tree().waiting();
+            let nodes = tree.tree().required_stack();
             (
                 source::Tree::Packed(tree.words, tree.tick, nodes),
                 tree.links,

@@ -6,8 +6,8 @@ use octray_core::accel::{
     OctreeNode, OctreeVariant,
 };
 use octray_core::object::ObjectRef;
+use octray_core::quantize::Quantize;
 use octray_core::ray::Aabb;
-use octray_core::scalar::Quantize;
 
 /// How a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

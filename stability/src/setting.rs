@@ -1,7 +1,7 @@
 //! The scenes that values of sweeps stand for: what is asked of them is whether a format admits
 //! them, and where it puts them.
 
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
 use octray_scenes::quantise::{Prepared, View, limits, quantise, resolution};
 

@@ -4,10 +4,12 @@
 
 use octray::metric::Difference;
 use octray_core::accel::{Accelerator, TraversalStack};
-use octray_core::scalar::{Approx, Fixed, Quantize};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Approx, Fixed};
 use octray_engine::options::Arith;
 use octray_scenes::model::Scene;
 use octray_scenes::quantise::{View, quantise};
+use octray_scenes::saturation::PerThread;
 use octray_scenes::tree::{Growth, TightTree};
 use octray_tests::shot::{self, Shot};
 use std::fs;
@@ -88,12 +90,12 @@ fn first_objects_in(format: &str, scene: &Scene) -> Vec<Option<u32>> {
     match format {
         "f32" => first_objects::<f32>(scene),
         "approx2" => first_objects::<Approx<2>>(scene),
-        "i24f8" => first_objects::<Fixed<8, true>>(scene),
-        "i20f12" => first_objects::<Fixed<12, true>>(scene),
-        "i16f16" => first_objects::<Fixed<16, true>>(scene),
-        "i12f20" => first_objects::<Fixed<20, true>>(scene),
-        "i8f24" => first_objects::<Fixed<24, true>>(scene),
-        "i4f28" => first_objects::<Fixed<28, true>>(scene),
+        "i24f8" => first_objects::<Fixed<8, PerThread>>(scene),
+        "i20f12" => first_objects::<Fixed<12, PerThread>>(scene),
+        "i16f16" => first_objects::<Fixed<16, PerThread>>(scene),
+        "i12f20" => first_objects::<Fixed<20, PerThread>>(scene),
+        "i8f24" => first_objects::<Fixed<24, PerThread>>(scene),
+        "i4f28" => first_objects::<Fixed<28, PerThread>>(scene),
         other => panic!("no such format here: {other}"),
     }
 }

@@ -6,9 +6,11 @@
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
 use octray_core::accel::BuildOptions;
-use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Fixed, reset_saturations, saturations};
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_scenes::quantise::{View, quantise};
+use octray_scenes::saturation::PerThread;
 use octray_scenes::tree::{Growth, TightTree};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -303,7 +305,7 @@ fn fixed_point_is_the_same_everywhere() {
     };
     same_everywhere(
         job,
-        &hash_here::<Fixed<16, true>>(job),
+        &hash_here::<Fixed<16, PerThread>>(job),
         divides_by_no_routine,
     );
 }
@@ -360,7 +362,7 @@ fn a_tree_may_be_built_on_the_device_or_left_out() {
         size: SMALL,
         tree,
     };
-    let expected = hash_here::<Fixed<16, true>>(job("packed"));
+    let expected = hash_here::<Fixed<16, PerThread>>(job("packed"));
     for tree in ["device", "none"] {
         let told = emulate(MICROBIT, &build(MICROBIT, job(tree)));
         assert_eq!(value(&told, "hash"), expected, "{tree}");

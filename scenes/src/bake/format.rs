@@ -3,6 +3,7 @@
 use super::{BakeError, Baked, Options, bake_as};
 use crate::model::Scene;
 use crate::quantise::finest;
+use crate::saturation::PerThread;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 
 /// The names that [`bake`] knows, besides `auto`.
@@ -23,18 +24,18 @@ pub fn bake(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<Baked, 
         "approx0" => bake_as::<Approx<0>>,
         "approx1" => bake_as::<Approx<1>>,
         "approx2" => bake_as::<Approx<2>>,
-        "i24f8" => bake_as::<Fixed<8, false>>,
-        "i22f10" => bake_as::<Fixed<10, false>>,
-        "i20f12" => bake_as::<Fixed<12, false>>,
-        "i18f14" => bake_as::<Fixed<14, false>>,
-        "i16f16" => bake_as::<Fixed<16, false>>,
-        "i14f18" => bake_as::<Fixed<18, false>>,
-        "i12f20" => bake_as::<Fixed<20, false>>,
-        "i10f22" => bake_as::<Fixed<22, false>>,
-        "i8f24" => bake_as::<Fixed<24, false>>,
-        "i6f26" => bake_as::<Fixed<26, false>>,
-        "i4f28" => bake_as::<Fixed<28, false>>,
-        "i32f32" => bake_as::<Fixed64>,
+        "i24f8" => bake_as::<Fixed<8, PerThread>>,
+        "i22f10" => bake_as::<Fixed<10, PerThread>>,
+        "i20f12" => bake_as::<Fixed<12, PerThread>>,
+        "i18f14" => bake_as::<Fixed<14, PerThread>>,
+        "i16f16" => bake_as::<Fixed<16, PerThread>>,
+        "i14f18" => bake_as::<Fixed<18, PerThread>>,
+        "i12f20" => bake_as::<Fixed<20, PerThread>>,
+        "i10f22" => bake_as::<Fixed<22, PerThread>>,
+        "i8f24" => bake_as::<Fixed<24, PerThread>>,
+        "i6f26" => bake_as::<Fixed<26, PerThread>>,
+        "i4f28" => bake_as::<Fixed<28, PerThread>>,
+        "i32f32" => bake_as::<Fixed64<PerThread>>,
         unknown => return Err(BakeError::Unknown(unknown.into())),
     };
     by(scene, options)

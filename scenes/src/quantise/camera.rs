@@ -4,7 +4,7 @@ use super::{Extent, Placement, vector};
 use crate::model::{self, Point, Scene};
 use octray_core::camera::{Camera, Projection};
 use octray_core::frame::{Frame, Region};
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 
 /// What picture is to be made of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,9 @@
 //! say how large they and all that is computed from them can become.
 
 use crate::model::Scene;
-use octray_core::scalar::{Fixed, Quantize};
+use crate::saturation::PerThread;
+use octray_core::quantize::Quantize;
+use octray_core::scalar::Fixed;
 use thiserror::Error;
 
 /// Why a format cannot have a scene.
@@ -102,15 +104,15 @@ pub fn limits<S: Quantize>(scene: &Scene, max_depth: u32) -> Result<(), Overflow
 /// What `auto` stands for: of 32-bit fixed point with 28, 24, 20, 16, 12 and 8 fraction bits the finest that
 /// the scene cannot overflow; the last if there is none.
 pub fn finest(scene: &Scene, max_depth: u32) -> &'static str {
-    if limits::<Fixed<28, false>>(scene, max_depth).is_ok() {
+    if limits::<Fixed<28, PerThread>>(scene, max_depth).is_ok() {
         "i4f28"
-    } else if limits::<Fixed<24, false>>(scene, max_depth).is_ok() {
+    } else if limits::<Fixed<24, PerThread>>(scene, max_depth).is_ok() {
         "i8f24"
-    } else if limits::<Fixed<20, false>>(scene, max_depth).is_ok() {
+    } else if limits::<Fixed<20, PerThread>>(scene, max_depth).is_ok() {
         "i12f20"
-    } else if limits::<Fixed<16, false>>(scene, max_depth).is_ok() {
+    } else if limits::<Fixed<16, PerThread>>(scene, max_depth).is_ok() {
         "i16f16"
-    } else if limits::<Fixed<12, false>>(scene, max_depth).is_ok() {
+    } else if limits::<Fixed<12, PerThread>>(scene, max_depth).is_ok() {
         "i20f12"
     } else {
         "i24f8"

@@ -4,7 +4,7 @@
 use super::camera::{View, add, length, times};
 use super::extent::{Extent, shape_box};
 use crate::model::{Point, Scene, Shape};
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use std::fmt;
 
 /// Something that a format is too coarse for.
