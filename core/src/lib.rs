@@ -66,7 +66,7 @@
 //!     picture[y as usize][x as usize] = colour.to_array().map(S::level);
 //! });
 //! assert_eq!(picture[0][0], [0, 0, 0]);
-//! assert_eq!(picture[20][36], [214, 143, 48]);
+//! assert_eq!(picture[20][36], [181, 120, 40]);
 //! # Ok::<(), octray_core::trace::WorkspaceTooSmall>(())
 //! ```
 #![no_std]

@@ -29,10 +29,11 @@ use crate::vec3::Vec3;
 ///     .map(|i| Sphere { centre: vec3(0.0, 0.0, 3.0 * i as f32 - 15.0), radius: 1.0 })
 ///     .collect();
 /// let attributes: Vec<_> = (0..10).map(|id| Attributes::new(id, 0)).collect();
+/// let surfaces = [Surface::default()];
 /// let scene: Scene<f32> = Scene::new(
 ///     Shapes { spheres: &spheres, ..Shapes::empty(1e-5) },
 ///     &attributes,
-///     &[Surface::default()],
+///     &surfaces,
 ///     &[],
 ///     Vec3::ZERO,
 ///     64.0,

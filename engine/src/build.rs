@@ -147,10 +147,7 @@ impl Request<'_> {
             return Ok(self.ready(prepared, tree, summary));
         }
         let all = every_object(&prepared.scene);
-        let summary = BuildStats {
-            links: all.len() as u32,
-            ..BuildStats::default()
-        };
+        let summary = BuildStats::of_list(all.len() as u32);
         Ok(self.ready(prepared, all, summary))
     }
 

@@ -47,6 +47,9 @@ pub trait Worker: Send {
 
     /// What was counted so far.
     fn counters(&self) -> &Counters;
+
+    /// Fixed-point results that had to be clamped to the format's range while this worker traced.
+    fn saturations(&self) -> u64;
 }
 
 /// What a ray of the camera meets first.

@@ -12,6 +12,7 @@ use octray_core::quantize::Quantize;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_scenes::quantise::Prepared;
+use octray_scenes::saturation;
 
 /// A scene in arithmetic `S` with a tree.
 pub(crate) struct Ready<S: Quantize, T> {
@@ -36,6 +37,7 @@ impl<S: Quantize, T: Grown<S>> Engine for Ready<S, T> {
             stack: Default::default(),
             shadow_cache: Apart::new(None, scene.lights.len()),
             counters: Counters::default(),
+            saturations: 0,
         })
     }
 }
@@ -49,6 +51,7 @@ struct Tracing<'a, S: Quantize, T: Grown<S>> {
     stack: Stack<'a, S, T>,
     shadow_cache: Apart<Option<ObjectRef>>,
     counters: Counters,
+    saturations: u64,
 }
 
 /// What the walk through a tree needs.
@@ -76,7 +79,10 @@ impl<'a, S: Quantize, T: Grown<S>> Tracing<'a, S, T> {
             stack: &mut self.stack,
             shadow_cache: self.shadow_cache.get(),
         };
-        work(&tracer, &mut workspace, &mut self.counters)
+        let (done, saturations) =
+            saturation::counted(|| work(&tracer, &mut workspace, &mut self.counters));
+        self.saturations += saturations;
+        done
     }
 
     fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
@@ -143,6 +149,10 @@ impl<S: Quantize, T: Grown<S>> Worker for Tracing<'_, S, T> {
 
     fn counters(&self) -> &Counters {
         &self.counters
+    }
+
+    fn saturations(&self) -> u64 {
+        self.saturations
     }
 }
 

@@ -1,6 +1,6 @@
 //! On a board without operating system: renders the scene that the build script has baked, and tells
 //! the picture's hash, what was counted and the deepest stack by semihosting. Exit code 0 if all
-//! went well, 101 after a panic, 102 after a fault, 103 if the stack ran out.
+//! went well, 101 after a panic, 102 after a fault, 103 if the stack ran out, 104 if rays found no room.
 //!
 //! Elsewhere: the panel simulator, which draws a scene file as such a board would. Exit codes are
 //! those of `octray`.

@@ -9,8 +9,7 @@ use octray_core::accel::Accelerator;
 use octray_core::features::FeatureSet;
 use octray_core::frame::Frame;
 use octray_core::observe::Observer;
-use octray_core::scalar::Scalar;
-use octray_core::trace::{Tracer, Workspace};
+use octray_core::trace::{TraceScalar, Tracer, Workspace};
 
 /// Red, green and blue in 8 bits.
 pub type Level = [u8; 3];
@@ -33,7 +32,7 @@ pub fn render<S, A, O, D, const FEATURES: FeatureSet>(
     observer: &mut O,
 ) -> Result<(), D::Error>
 where
-    S: Scalar,
+    S: TraceScalar,
     A: Accelerator<S, FEATURES>,
     O: Observer,
     D: DrawTarget<Color: From<Rgb888>>,

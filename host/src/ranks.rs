@@ -71,13 +71,15 @@ struct Tally {
     /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::QueryCounts`].
     searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
-    saturations: u32,
+    saturations: u64,
+    /// Rays and nodes that found no room, shadow rays to lights beyond the shadow cache.
+    dropped: [u64; 3],
     /// Seconds in which it traced.
     busy: f64,
 }
 
 impl Tally {
-    fn new(counters: &Counters, saturations: u32, busy: Duration) -> Self {
+    fn new(counters: &Counters, saturations: u64, busy: Duration) -> Self {
         Self {
             rays: counters.rays,
             hits: counters.hits,
@@ -91,35 +93,38 @@ impl Tally {
                     sides,
                     tests,
                     met,
+                    ..
                 } = search;
                 ([steps, children, outlines, edges, sides], tests, met)
             }),
             deepest: counters.deepest,
             saturations,
+            dropped: {
+                let dropped = counters.dropped;
+                [dropped.rays, dropped.children, dropped.uncached]
+            },
             busy: busy.as_secs_f64(),
         }
     }
 
     fn counters(&self) -> Counters {
-        Counters {
-            rays: self.rays,
-            blocked: self.blocked,
-            hits: self.hits,
-            queries: (self.searches).map(|(counts, tests, met)| {
-                let [steps, children, outlines, edges, sides] = counts;
-                QueryCounts {
-                    steps,
-                    children,
-                    tests,
-                    met,
-                    outlines,
-                    edges,
-                    sides,
-                }
-            }),
-            deepest: self.deepest,
-            query: 0,
+        let mut all = Counters::default();
+        all.rays = self.rays;
+        all.blocked = self.blocked;
+        all.hits = self.hits;
+        all.deepest = self.deepest;
+        [all.dropped.rays, all.dropped.children, all.dropped.uncached] = self.dropped;
+        for (query, (counts, tests, met)) in all.queries.iter_mut().zip(self.searches) {
+            [
+                query.steps,
+                query.children,
+                query.outlines,
+                query.edges,
+                query.sides,
+            ] = counts;
+            (query.tests, query.met) = (tests, met);
         }
+        all
     }
 }
 

@@ -8,7 +8,7 @@ use crate::job::{RenderJob, StatsFormat};
 use crate::output;
 use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::stats::{Rays, Seconds, Stats, Work};
+use crate::stats::{Dropped, Rays, Seconds, Stats, Work};
 use crate::summary::Summary;
 use octray_core::observe::{Counters, RayKind};
 use octray_engine::Octree;
@@ -87,6 +87,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         tests: traced.counters.tests(),
         hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,
+        dropped: Dropped::of(&traced.counters),
         octree: traced.octree,
         seconds: Seconds {
             parse: parse.as_secs_f64(),

@@ -43,6 +43,8 @@ pub struct Stats {
     pub hits: u64,
     /// Fixed-point results that had to be clamped to the format's range.
     pub saturations: u64,
+    /// What found no room.
+    pub dropped: Dropped,
     /// The octree.
     pub octree: Octree,
     /// Time per stage.
@@ -85,6 +87,28 @@ impl Rays {
     /// All rays; the blocked ones are among the shadow rays.
     pub fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflected + self.transmitted
+    }
+}
+
+/// What found no room: all 0 unless something is wrong with octray, as it makes room for all that a scene can need.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Dropped {
+    /// Reflected and transmitted rays that were not traced.
+    pub rays: u64,
+    /// Nodes of the tree that were not visited.
+    pub nodes: u64,
+    /// Shadow rays to lights beyond the shadow cache; the picture is the same, only slower.
+    pub uncached: u64,
+}
+
+impl Dropped {
+    /// Those that were counted.
+    pub fn of(counters: &Counters) -> Self {
+        Self {
+            rays: counters.dropped.rays,
+            nodes: counters.dropped.children,
+            uncached: counters.dropped.uncached,
+        }
     }
 }
 
@@ -170,6 +194,11 @@ pub(crate) mod tests {
             tests: 765_432,
             hits: 180_000,
             saturations: 5,
+            dropped: Dropped {
+                rays: 2,
+                nodes: 3,
+                uncached: 4,
+            },
             octree: Octree {
                 kind: Tree::Tight,
                 nodes: 11,
@@ -207,7 +236,7 @@ pub(crate) mod tests {
         let expected = concat!(
             r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
             r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
-            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
+            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"dropped":{"rays":2,"nodes":3,"uncached":4},"#,
             r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
             r#""threads":2,"schedule":"dynamic","packet":{"rows":16,"columns":16},"packets":64,"#,

@@ -14,7 +14,6 @@ use crate::stats::Work;
 use crate::threads::{self, idle, run_packets};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::scalar;
 use octray_engine::packet::Packet;
 use octray_engine::{self as engine, Built, Engine, Worker};
 use octray_scenes::model::Scene;
@@ -103,8 +102,6 @@ pub fn render(
 ) -> Result<(Picture, Counters, Work, u64), Error> {
     let (picture, region) = blank(engine, holds_intensities)?;
     let packing = packing::choose(engine, &region, job, interrupt)?;
-    // Those of the probe, or of other pictures, are not this one's.
-    let before = scalar::saturations();
     let parts: Vec<_> = packing.shape.cut(&region).collect();
     let count = parts.len();
     let assembly = Assembly::new(picture, &region, packing.shape);
@@ -126,9 +123,10 @@ pub fn render(
         },
         || progress.step(),
     )?;
-    let mut counters = Counters::default();
+    let (mut counters, mut saturations) = (Counters::default(), 0);
     for thread in &finished {
         counters.add(thread.state.counters());
+        saturations += thread.state.saturations();
     }
     let work = Work {
         threads: finished.len(),
@@ -139,13 +137,7 @@ pub fn render(
         messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
-    let saturations = scalar::saturations().wrapping_sub(before);
-    Ok((
-        assembly.into_picture(),
-        counters,
-        work,
-        u64::from(saturations),
-    ))
+    Ok((assembly.into_picture(), counters, work, saturations))
 }
 
 /// What tracing comes to, without start-up and without the picture's file: [`TRACING`].

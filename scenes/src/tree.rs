@@ -99,19 +99,18 @@ impl PackedTree {
             &mut boxes,
             growth.options,
         )?;
-        let (used, tick) = (tree.words.len(), tree.tick);
+        let (used, tick) = (tree.words().len(), tree.tick());
         words.truncate(used);
         scene.reorder(&mut links);
         Ok((Self { words, links, tick }, summary))
     }
 
     /// The tree as the tracer sees it.
+    ///
+    /// # Panics
+    /// If somebody has changed its words: those that were built fit the stack.
     pub fn tree(&self) -> CompactBvh8<'_> {
-        CompactBvh8 {
-            words: &self.words,
-            links: &self.links,
-            tick: self.tick,
-        }
+        CompactBvh8::new(&self.words, &self.links, self.tick).expect("a tree as it was built")
     }
 }
 

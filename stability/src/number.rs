@@ -3,10 +3,9 @@
 use crate::exact::{Exact, Exact3, exact};
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
-use octray_core::scalar::{Approx, Fixed, Fixed64, reset_saturations, saturations};
+use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_core::vec3::Vec3;
-use octray_scenes::saturation::PerThread;
-use std::sync::{Mutex, PoisonError};
+use octray_scenes::saturation::{self, PerThread};
 
 /// A number whose exact value can be told.
 pub trait Number: Quantize {
@@ -89,14 +88,10 @@ pub fn ray<S: Number>(origin: [f64; 3], direction: Vec3<S>) -> Ray<S> {
     }
 }
 
-/// What `work` gives, and how many saturations it took. The count is the process's, so only one
-/// thread at a time works.
+/// What `work` gives, and how many saturations it took on this thread.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u32) {
-    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    reset_saturations();
-    let result = work();
-    (result, saturations())
+    let (result, count) = saturation::counted(work);
+    (result, u32::try_from(count).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
 use octray_core::scene::{Attributes, Scene, Surface};
 use octray_core::shape::Shapes;
-use octray_core::trace::{QueuedRay, Tracer, Workspace};
+use octray_core::trace::{QueuedRay, TraceScalar, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 
 /// The rays that left a surface.
@@ -68,7 +68,7 @@ pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
 }
 
 /// The rays that the tracer sends on from where `ray` meets an object of `shapes`.
-pub fn leaving<S: Scalar>(
+pub fn leaving<S: TraceScalar>(
     shapes: Shapes<'_, S>,
     surface: Surface<S>,
     ray: &Ray<S>,

@@ -116,6 +116,7 @@ fn the_json_object_has_the_documented_fields() {
         "tests",
         "hits",
         "saturations",
+        "dropped",
         "octree",
         "seconds",
         "threads",
@@ -145,6 +146,10 @@ fn the_json_object_has_the_documented_fields() {
     assert_eq!(
         (&stats["saturations"], &stats["octree"]["unsplit"]),
         (&0.into(), &0.into())
+    );
+    assert_eq!(
+        stats["dropped"],
+        serde_json::json!({"rays": 0, "nodes": 0, "uncached": 0})
     );
     assert_eq!(stats["octree"]["kind"], "tight");
     for field in ["nodes", "links", "depth"] {

@@ -41,7 +41,7 @@ pub enum LinkBy {
 /// let file = "v 0 0 9 at 0 0 0 up 0 1 0 angle 40 f 0 0 0 1 1 1 0 0 0 1 0 0
 ///     s 0 0 0 1 s 2 0 0 1 s -2 0 0 1 s 0 2 0 1 box 0 -2 0 1 1 1";
 /// let view = View { size: Some((8, 8)), pixels_per_ray: 1, samples: 1, max_depth: 0 };
-/// let prepared = quantise::<f32>(&octray_scenes::parse(file)?, &view)?;
+/// let prepared = quantise::<f32>(&octray_scenes::parse(file).unwrap(), &view)?;
 /// let scene = prepared.scene.scene();
 ///
 /// let options = BuildOptions { depth: 8, leaf_size: 1 };

@@ -37,7 +37,7 @@ use root::rsqrt_q30;
 /// // 16 bits behind the point, unchecked: what boards use.
 /// let third = Fixed::<16>::from_f64(1.0 / 3.0);
 /// assert_eq!(third.to_bits(), 21845);
-/// assert_eq!((third * third).to_bits(), 7281);
+/// assert_eq!((third * third).to_bits(), 7282);
 /// assert_eq!(Fixed::<16>::ONE.quotient(third).to_bits(), 3 * 65536 + 3);
 ///
 /// // Checked and counted, here in a static.

@@ -101,11 +101,10 @@ fn tree() -> u32 {
     let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
     // A node is two words and two for each child; the upper bits of the second tell how many.
-    let size = tree.words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
-    let trunk = Tree {
-        words: tree.words.get(..size as usize).unwrap_or_default(),
-        ..*tree
-    };
+    let words = tree.words();
+    let size = words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
+    let root_alone = words.get(..size as usize).unwrap_or_default();
+    let trunk = Tree::new(root_alone, tree.links(), tree.tick()).unwrap_or(*tree);
     let trunk = black_box(&trunk);
     let mut stack = Stack::default();
     let mut steps = 0;

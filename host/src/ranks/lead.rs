@@ -18,7 +18,6 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::scalar;
 use octray_engine as engine;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
@@ -102,10 +101,10 @@ impl<'a> Leader<'a> {
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
         // As with threads, what comes before the dealing is neither idle nor the picture's.
-        let (dealing, before) = (Instant::now(), scalar::saturations());
+        let dealing = Instant::now();
         let count = parts.len();
         progress.start(count);
-        let (counters, busy, mut messages, tallies) = {
+        let (own, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
                 deal: Deal::new(packing.policy, count, threads, packing.order),
@@ -115,18 +114,16 @@ impl<'a> Leader<'a> {
                 messages: Messages::default(),
                 tallies: vec![None; ranks],
             };
-            let (counters, busy) = desk.run(&*engine, interrupt)?;
-            (counters, busy, desk.messages, desk.tallies)
+            let own = desk.run(&*engine, interrupt)?;
+            (own, desk.messages, desk.tallies)
         };
         self.state = State::Done;
         let dealing = dealing.elapsed().as_secs_f64();
-        let own = scalar::saturations().wrapping_sub(before);
-        let own = Tally::new(&counters, own, busy);
         let (mut counters, mut saturations) = (Counters::default(), 0);
         let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
         for tally in &tallies {
             counters.add(&tally.counters());
-            saturations += u64::from(tally.saturations);
+            saturations += tally.saturations;
         }
         let busy: f64 = tallies.iter().map(|tally| tally.busy).sum();
         if busy > 0.0 && messages.count > 0 {
@@ -170,12 +167,8 @@ struct Desk<'a> {
 
 impl Desk<'_> {
     /// Traces packets, and answers the others between them, until all have done all there is. Returns what
-    /// was counted here, and the time spent tracing.
-    fn run(
-        &mut self,
-        engine: &dyn engine::Engine,
-        interrupt: &Interrupt,
-    ) -> Result<(Counters, Duration), Error> {
+    /// was done here.
+    fn run(&mut self, engine: &dyn engine::Engine, interrupt: &Interrupt) -> Result<Tally, Error> {
         let mut worker = engine.worker();
         let mut busy = Duration::ZERO;
         loop {
@@ -192,7 +185,8 @@ impl Desk<'_> {
                 self.picture.put(&part);
                 self.progress.step();
             } else if self.tallies.iter().skip(1).all(Option::is_some) {
-                return Ok((*worker.counters(), busy));
+                let (counters, saturations) = (worker.counters(), worker.saturations());
+                return Ok(Tally::new(counters, saturations, busy));
             } else {
                 pause();
             }

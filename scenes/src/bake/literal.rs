@@ -34,7 +34,7 @@ impl<const F: u32, C: SaturationCounter> Literal for Fixed<F, C> {
     }
 }
 
-impl Literal for Fixed64 {
+impl<C: SaturationCounter> Literal for Fixed64<C> {
     fn type_name() -> String {
         "scalar::Fixed64".into()
     }

@@ -139,7 +139,9 @@ impl<S: Literal> Display for Tables<'_, S> {
         let tree = match &self.tree {
             Tree::None => "accel::BruteForce(&LINKS)".into(),
             Tree::Packed(_, tick, _) => {
-                format!("accel::CompactBvh8 {{ words: &WORDS, links: &LINKS, tick: {tick} }}")
+                format!(
+                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"too little room for the walk\"),\n}}"
+                )
             }
             Tree::Device(..) => String::new(),
         };
