@@ -15,8 +15,8 @@ use lead::Leader;
 use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
-use octray_core::observe::{Counters, Searches};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
+use octray_core::observe::{Counters, QueryCounts};
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -66,22 +66,24 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::Searches`].
+    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::QueryCounts`].
     searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
-    saturations: u32,
+    saturations: u64,
+    /// Rays and nodes that found no room, shadow rays to lights beyond the shadow cache.
+    dropped: [u64; 3],
     /// Seconds in which it traced.
     busy: f64,
 }
 
 impl Tally {
-    fn new(counters: &Counters, saturations: u32, busy: Duration) -> Self {
+    fn new(counters: &Counters, saturations: u64, busy: Duration) -> Self {
         Self {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            searches: counters.searches.map(|search| {
-                let Searches {
+            searches: counters.queries.map(|search| {
+                let QueryCounts {
                     steps,
                     children,
                     outlines,
@@ -89,35 +91,38 @@ impl Tally {
                     sides,
                     tests,
                     met,
+                    ..
                 } = search;
                 ([steps, children, outlines, edges, sides], tests, met)
             }),
             deepest: counters.deepest,
             saturations,
+            dropped: {
+                let dropped = counters.dropped;
+                [dropped.rays, dropped.children, dropped.uncached]
+            },
             busy: busy.as_secs_f64(),
         }
     }
 
     fn counters(&self) -> Counters {
-        Counters {
-            rays: self.rays,
-            blocked: self.blocked,
-            hits: self.hits,
-            searches: (self.searches).map(|(counts, tests, met)| {
-                let [steps, children, outlines, edges, sides] = counts;
-                Searches {
-                    steps,
-                    children,
-                    tests,
-                    met,
-                    outlines,
-                    edges,
-                    sides,
-                }
-            }),
-            deepest: self.deepest,
-            search: 0,
+        let mut all = Counters::default();
+        all.rays = self.rays;
+        all.blocked = self.blocked;
+        all.hits = self.hits;
+        all.deepest = self.deepest;
+        [all.dropped.rays, all.dropped.children, all.dropped.uncached] = self.dropped;
+        for (query, (counts, tests, met)) in all.queries.iter_mut().zip(self.searches) {
+            [
+                query.steps,
+                query.children,
+                query.outlines,
+                query.edges,
+                query.sides,
+            ] = counts;
+            (query.tests, query.met) = (tests, met);
         }
+        all
     }
 }
 

@@ -1,7 +1,7 @@
 //! `octray render`: read a scene, have it traced, write the picture, tell the cost.
 
 use crate::job::{RenderJob, StatsFormat};
-use crate::stats::{Seconds, Stats};
+use crate::stats::{Dropped, Seconds, Stats};
 use crate::summary::Summary;
 use octray_core::observe::RayKind;
 use octray_render::counts::SceneCounts;
@@ -82,6 +82,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) ->
         tests: traced.counters.tests(),
         hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,
+        dropped: Dropped::of(&traced.counters),
         tree: traced.tree,
         seconds: Seconds {
             parse: parse.as_secs_f64(),

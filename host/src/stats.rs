@@ -1,5 +1,6 @@
 //! What a rendering cost: the object that `--stats json` prints.
 
+use octray_core::observe::Counters;
 use octray_prepare::format::{Arith, Format};
 use octray_render::counts::SceneCounts;
 use octray_render::renderer::TreeStats;
@@ -40,6 +41,8 @@ pub struct Stats {
     pub hits: u64,
     /// Fixed-point results that had to be clamped to the format's range.
     pub saturations: u64,
+    /// What found no room.
+    pub dropped: Dropped,
     /// The tree.
     pub tree: TreeStats,
     /// Time per stage.
@@ -50,6 +53,28 @@ pub struct Stats {
     /// [`octray_render::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
     #[serde(serialize_with = "hexadecimal")]
     pub hash: u64,
+}
+
+/// What found no room: all 0 unless something is wrong with octray, as it makes room for all that a scene can need.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Dropped {
+    /// Reflected and transmitted rays that were not traced.
+    pub rays: u64,
+    /// Nodes of the tree that were not visited.
+    pub nodes: u64,
+    /// Shadow rays to lights beyond the shadow cache; the picture is the same, only slower.
+    pub uncached: u64,
+}
+
+impl Dropped {
+    /// Those that were counted.
+    pub fn of(counters: &Counters) -> Self {
+        Self {
+            rays: counters.dropped.rays,
+            nodes: counters.dropped.children,
+            uncached: counters.dropped.uncached,
+        }
+    }
 }
 
 /// Wall-clock time per stage, in seconds.
@@ -102,6 +127,11 @@ pub(crate) mod tests {
             tests: 765_432,
             hits: 180_000,
             saturations: 5,
+            dropped: Dropped {
+                rays: 2,
+                nodes: 3,
+                uncached: 4,
+            },
             tree: TreeStats {
                 kind: TreeKind::Bvh8,
                 nodes: 11,
@@ -132,7 +162,7 @@ pub(crate) mod tests {
         let expected = concat!(
             r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
             r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
-            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
+            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"dropped":{"rays":2,"nodes":3,"uncached":4},"#,
             r#""tree":{"kind":"bvh8","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
             r#""threads":2,"schedule":"dynamic","tile":{"rows":16,"columns":16},"tiles":64,"#,

@@ -46,6 +46,27 @@ impl fmt::Display for Summary<'_> {
         if stats.saturations > 0 {
             count(f, "saturations", stats.saturations, "")?;
         }
+        let dropped = &stats.dropped;
+        let room = [
+            (
+                "dropped rays",
+                dropped.rays,
+                "  for want of room: the picture lacks their light",
+            ),
+            (
+                "dropped nodes",
+                dropped.nodes,
+                "  for want of room: the picture may lack objects",
+            ),
+            (
+                "uncached",
+                dropped.uncached,
+                "  shadow rays to lights beyond the shadow cache: slower",
+            ),
+        ];
+        for (name, number, what) in room.into_iter().filter(|(_, number, _)| *number > 0) {
+            count(f, name, number, what)?;
+        }
         let stages = [
             ("parse", seconds.parse),
             ("build", seconds.build),

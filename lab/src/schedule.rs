@@ -6,7 +6,7 @@ use crate::canvas;
 use crate::simulate::{Machine, Outcome, simulate_messages};
 use chart::Chart;
 use comfy_table::{CellAlignment, Table, presets};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_prepare::RenderSettings;
 use octray_render::cost::{CostMap, most_expensive_first};
 use octray_render::error::Error;

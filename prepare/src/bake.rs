@@ -9,7 +9,7 @@
 //! | name | what |
 //! | --- | --- |
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
-//! | `NEEDS` | what the scene needs, for [`octray_core::needs`] |
+//! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
 //! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
 //! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
 //! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
@@ -25,10 +25,10 @@ use crate::format::{Format, InFormat};
 use crate::quantise::{Overflow, Prepared, quantise};
 use crate::settings::{RenderSettings, TreeKind};
 use crate::tree::{Growth, OwnedCompactBvh8, every_object};
-use octray_core::needs::{self, Needs};
+use octray_core::features::{self, FeatureSet};
+use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use thiserror::Error;
@@ -71,8 +71,8 @@ pub struct Baked {
     pub source: String,
     /// The format; the one that `auto` has chosen.
     pub format: Format,
-    /// What the scene needs.
-    pub needs: Needs,
+    /// The features that the scene uses.
+    pub features: FeatureSet,
     /// Bytes of the tables, links and nodes included, on a target of 32 bits.
     pub bytes: usize,
     /// How many rays can wait at once.
@@ -137,7 +137,7 @@ fn bake_as<S: Literal>(
         (TreeKind::None, _) => (source::Tree::None, every),
         (TreeKind::CompactBvh8, false) => {
             let tree = grow(&mut prepared.scene)?;
-            let nodes = tree.tree().waiting();
+            let nodes = tree.tree().required_stack();
             (
                 source::Tree::Packed(tree.words, tree.tick, nodes),
                 tree.links,
@@ -150,13 +150,13 @@ fn bake_as<S: Literal>(
         }
         (other, _) => return Err(BakeError::Tree(other)),
     };
-    let needs = needs_of(&prepared, options.settings.max_depth);
-    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), needs, options));
+    let features = features_of(&prepared, options.settings.max_depth);
+    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), features, options));
     let tables = source::Tables {
         prepared: &prepared,
         tree,
         links: &links,
-        needs,
+        features,
         rays,
         options,
     };
@@ -164,7 +164,7 @@ fn bake_as<S: Literal>(
         bytes: tables.bytes(),
         source: tables.to_string(),
         format,
-        needs,
+        features,
         rays,
         words: tables.tree.room(),
         nodes: tables.tree.nodes(),
@@ -172,29 +172,29 @@ fn bake_as<S: Literal>(
 }
 
 /// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
-fn needs_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> Needs {
+fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet {
     let scene = &prepared.scene;
     let shapes = scene.shapes();
     let mut set = 0;
-    let mut need = |what: Needs, if_so: bool| set |= if if_so { what } else { 0 };
-    for kind in Kind::ALL {
-        need(needs::of_kind(kind), shapes.count(kind) > 0);
+    let mut need = |what: FeatureSet, if_so: bool| set |= if if_so { what } else { 0 };
+    for kind in ObjectKind::ALL {
+        need(features::of_kind(kind), shapes.count(kind) > 0);
     }
-    need(needs::BANDS, !scene.bands.is_empty());
-    need(needs::PATCHES, !scene.patches.is_empty());
-    need(needs::SHADOWS, !scene.lights.is_empty());
+    need(features::BANDS, !scene.bands.is_empty());
+    need(features::PATCHES, !scene.patches.is_empty());
+    need(features::SHADOWS, !scene.lights.is_empty());
     for surface in used_surfaces(prepared) {
         let shines = surface.specular != Vec3::ZERO;
-        need(needs::SPECULAR, shines);
+        need(features::SPECULAR, shines);
         need(
-            needs::FRACTIONS,
+            features::FRACTIONS,
             shines && surface.shine.fraction != S::ZERO,
         );
         need(
-            needs::REFLECTION,
+            features::REFLECTION,
             surface.reflect != S::ZERO && max_depth > 0,
         );
-        need(needs::REFRACTION, surface.refract != S::ZERO);
+        need(features::REFRACTION, surface.refract != S::ZERO);
     }
     set
 }
@@ -215,12 +215,13 @@ fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
 /// that also transmits leaves one more at each bounce.
 fn room<S: Scalar + Literal>(
     surfaces: &[Surface<S>],
-    needs: Needs,
+    features: FeatureSet,
     options: &BakeOptions<'_>,
 ) -> usize {
-    let follows =
-        |what| needs::needs(needs, what) && options.settings.max_depth > 0 && !surfaces.is_empty();
-    match (follows(needs::REFLECTION), follows(needs::REFRACTION)) {
+    let follows = |what| {
+        features::contains(features, what) && options.settings.max_depth > 0 && !surfaces.is_empty()
+    };
+    match (follows(features::REFLECTION), follows(features::REFRACTION)) {
         (false, false) => 0,
         (true, false) | (false, true) => 1,
         (true, true) => {

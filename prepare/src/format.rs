@@ -3,6 +3,7 @@
 use crate::bake::Literal;
 use crate::choice::Choice;
 use crate::quantise::limits;
+use crate::saturation::PerThread;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize, de};
@@ -93,18 +94,18 @@ impl Format {
             Self::Approx0 => task.run::<Approx<0>>(),
             Self::Approx1 => task.run::<Approx<1>>(),
             Self::Approx2 => task.run::<Approx<2>>(),
-            Self::I24F8 => task.run::<Fixed<8, true>>(),
-            Self::I22F10 => task.run::<Fixed<10, true>>(),
-            Self::I20F12 => task.run::<Fixed<12, true>>(),
-            Self::I18F14 => task.run::<Fixed<14, true>>(),
-            Self::I16F16 => task.run::<Fixed<16, true>>(),
-            Self::I14F18 => task.run::<Fixed<18, true>>(),
-            Self::I12F20 => task.run::<Fixed<20, true>>(),
-            Self::I10F22 => task.run::<Fixed<22, true>>(),
-            Self::I8F24 => task.run::<Fixed<24, true>>(),
-            Self::I6F26 => task.run::<Fixed<26, true>>(),
-            Self::I4F28 => task.run::<Fixed<28, true>>(),
-            Self::I32F32 => task.run::<Fixed64>(),
+            Self::I24F8 => task.run::<Fixed<8, PerThread>>(),
+            Self::I22F10 => task.run::<Fixed<10, PerThread>>(),
+            Self::I20F12 => task.run::<Fixed<12, PerThread>>(),
+            Self::I18F14 => task.run::<Fixed<14, PerThread>>(),
+            Self::I16F16 => task.run::<Fixed<16, PerThread>>(),
+            Self::I14F18 => task.run::<Fixed<18, PerThread>>(),
+            Self::I12F20 => task.run::<Fixed<20, PerThread>>(),
+            Self::I10F22 => task.run::<Fixed<22, PerThread>>(),
+            Self::I8F24 => task.run::<Fixed<24, PerThread>>(),
+            Self::I6F26 => task.run::<Fixed<26, PerThread>>(),
+            Self::I4F28 => task.run::<Fixed<28, PerThread>>(),
+            Self::I32F32 => task.run::<Fixed64<PerThread>>(),
         }
     }
 

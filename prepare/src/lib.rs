@@ -7,6 +7,7 @@
 //! | [`settings`] | what there is to choose, with its defaults: [`RenderSettings`] |
 //! | [`mod@format`] | the one list of number formats, and the way from a name to a type |
 //! | [`mod@quantise`] | a scene in the numbers of one format, placed and scaled |
+//! | [`saturation`] | counts saturations of fixed point, by thread |
 //! | [`tree`] | trees of a quantised scene, in memory of their own |
 //! | [`target`] | what a target's core is good at, as far as it decides which tree is best |
 //! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
@@ -18,6 +19,7 @@ pub mod choice;
 pub mod format;
 pub mod plan;
 pub mod quantise;
+pub mod saturation;
 pub mod settings;
 pub mod target;
 pub mod tree;

@@ -2,8 +2,8 @@
 //!
 //! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
 
-use octray_core::octree::{Accelerator, Stack};
-use octray_core::scalar::Quantize;
+use octray_core::accel::{Accelerator, TraversalStack};
+use octray_core::quantize::Quantize;
 use octray_prepare::Arith;
 use octray_prepare::RenderSettings;
 use octray_prepare::bake::Literal;
@@ -107,7 +107,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     };
     let mut prepared = quantise::<S>(scene, &view).expect("the scene fits the format");
     let growth = Growth {
-        options: octray_core::octree::Options {
+        options: octray_core::accel::BuildOptions {
             depth: 24,
             leaf_size: 2,
         },
@@ -115,7 +115,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     };
     let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let (scene, tree) = (prepared.scene.scene(), tree.tree());
-    let mut stack = Stack::default();
+    let mut stack = TraversalStack::default();
     let active = prepared.frame.active();
     let pixels = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
     pixels
@@ -123,7 +123,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
             if !active.columns.contains(&column) || !active.rows.contains(&row) {
                 return None;
             }
-            let (x, y) = prepared.frame.place(column, row, 0, 0);
+            let (x, y) = prepared.frame.sample_position(column, row, 0, 0);
             let ray = prepared.frame.camera().row(y).ray(x);
             tree.nearest(&scene, &ray, &mut stack, &mut ())
                 .map(|hit| scene.attributes_of(hit.object).id)

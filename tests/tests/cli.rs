@@ -116,6 +116,7 @@ fn the_json_object_has_the_documented_fields() {
         "tests",
         "hits",
         "saturations",
+        "dropped",
         "tree",
         "seconds",
         "threads",
@@ -146,6 +147,10 @@ fn the_json_object_has_the_documented_fields() {
         (&0.into(), &0.into())
     );
     assert_eq!(stats["tree"]["kind"], "bvh8");
+    assert_eq!(
+        stats["dropped"],
+        serde_json::json!({"rays": 0, "nodes": 0, "uncached": 0})
+    );
     for field in ["nodes", "links", "depth"] {
         assert!(stats["tree"][field].as_u64().unwrap() > 0, "{field}");
     }

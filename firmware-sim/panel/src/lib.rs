@@ -9,7 +9,7 @@ mod overlay;
 mod screen;
 
 use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_embedded::dither::{Dithered, PanelColor};
 use octray_embedded::render::{ROWS, Strips};
 use octray_prepare::{Arith, RenderSettings};

@@ -3,8 +3,8 @@
 use crate::owned::OwnedAccelerator;
 use crate::prepared::{PreparedScene, intensity, level};
 use crate::renderer::{Built, Renderer, TreeStats};
-use octray_core::octree::{self, Summary, Variant};
-use octray_core::scalar::Quantize;
+use octray_core::accel::{self, BuildStats, OctreeVariant};
+use octray_core::quantize::Quantize;
 use octray_prepare::bake::Literal;
 use octray_prepare::format::{Format, InFormat};
 use octray_prepare::quantise::{self, Overflow, Prepared};
@@ -76,18 +76,15 @@ impl Request<'_> {
             }
             TreeKind::None => {
                 let all = every_object(&prepared.scene);
-                let summary = Summary {
-                    links: all.len() as u32,
-                    ..Summary::default()
-                };
+                let summary = BuildStats::of_list(all.len() as u32);
                 return Ok(self.ready(prepared, all, summary));
             }
-            TreeKind::Modified => Variant::Modified,
-            TreeKind::Plain => Variant::Plain,
+            TreeKind::Modified => OctreeVariant::Modified,
+            TreeKind::Plain => OctreeVariant::Plain,
         };
         let link = match tree.link {
-            Link::Shape => octree::Link::Shape,
-            Link::Box => octree::Link::Box,
+            Link::Shape => accel::LinkBy::Shape,
+            Link::Box => accel::LinkBy::Box,
         };
         let (tree, summary) = OwnedOctree::build(&mut prepared.scene, &growth, variant, link);
         Ok(self.ready(prepared, tree, summary))
@@ -97,7 +94,7 @@ impl Request<'_> {
         &self,
         prepared: Prepared<S>,
         tree: T,
-        summary: Summary,
+        summary: BuildStats,
     ) -> Box<dyn Renderer> {
         let background = prepared.scene.background;
         let built = Built {

@@ -4,16 +4,16 @@
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::renderer::Renderer;
+use octray_core::frame::Region;
+use octray_core::object::ObjectKind;
 use octray_core::observe::{Counters, RayKind};
-use octray_core::packet::Region;
-use octray_core::shape::Kind;
 use std::num::NonZeroU32;
 use std::ops::Range;
 
 /// How many events there are weights for.
 pub const EVENTS: usize = 11;
 
-/// What is counted, in the order of [`events`] and [`WEIGHTS`]; the kinds of objects in that of [`Kind::ALL`].
+/// What is counted, in the order of [`events`] and [`WEIGHTS`]; the kinds of objects in that of [`ObjectKind::ALL`].
 pub const NAMES: [&str; EVENTS] = [
     "primary ray",
     "reflected or transmitted ray",
@@ -38,11 +38,11 @@ pub const WEIGHTS: [f64; EVENTS] = [
 /// The events that make up the cost of what was counted.
 pub fn events(counters: &Counters) -> [u64; EVENTS] {
     let rays = |kind| counters.rays_of(kind);
-    let tested = |kind: Kind| {
-        let searches = counters.searches.iter();
+    let tested = |kind: ObjectKind| {
+        let searches = counters.queries.iter();
         searches.map(|search| search.tests[kind as usize]).sum()
     };
-    let [sphere, triangle, polygon, cone, cuboid] = Kind::ALL.map(tested);
+    let [sphere, triangle, polygon, cone, cuboid] = ObjectKind::ALL.map(tested);
     [
         rays(RayKind::Primary),
         rays(RayKind::Reflected) + rays(RayKind::Transmitted),

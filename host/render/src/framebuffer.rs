@@ -2,7 +2,7 @@
 
 use crate::picture::Picture;
 use crate::tile::{TileBuffer, TileSize};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use std::mem;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

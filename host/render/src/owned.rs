@@ -1,8 +1,8 @@
 //! Trees as the tracer sees them.
 
-use octray_core::octree::{Accelerator, List, Octants, Packed, Plane, Tight};
-use octray_core::scalar::Quantize;
-use octray_core::shape::ObjectRef;
+use octray_core::accel::{Accelerator, BoundScalar, BruteForce, Bvh8, CompactBvh8, Octree};
+use octray_core::object::ObjectRef;
+use octray_core::quantize::Quantize;
 use octray_prepare::tree::{OwnedBvh8, OwnedCompactBvh8, OwnedOctree};
 
 /// A tree in memory of its own.
@@ -15,35 +15,35 @@ pub(crate) trait OwnedAccelerator<S: Quantize>: Send + Sync {
     fn view(&self) -> Self::View<'_>;
 }
 
-impl<S: Quantize<Plane = P>, P: Plane> OwnedAccelerator<S> for OwnedBvh8<P> {
-    type View<'a> = Tight<'a, P>;
+impl<S: Quantize<Bound = P>, P: BoundScalar> OwnedAccelerator<S> for OwnedBvh8<P> {
+    type View<'a> = Bvh8<'a, P>;
 
-    fn view(&self) -> Tight<'_, P> {
+    fn view(&self) -> Bvh8<'_, P> {
         self.tree()
     }
 }
 
 impl<S: Quantize> OwnedAccelerator<S> for OwnedCompactBvh8 {
-    type View<'a> = Packed<'a>;
+    type View<'a> = CompactBvh8<'a>;
 
-    fn view(&self) -> Packed<'_> {
+    fn view(&self) -> CompactBvh8<'_> {
         self.tree()
     }
 }
 
-impl<S: Quantize<Plane = P>, P: Plane> OwnedAccelerator<S> for OwnedOctree<P> {
-    type View<'a> = Octants<'a, P>;
+impl<S: Quantize<Bound = P>, P: BoundScalar> OwnedAccelerator<S> for OwnedOctree<P> {
+    type View<'a> = Octree<'a, P>;
 
-    fn view(&self) -> Octants<'_, P> {
+    fn view(&self) -> Octree<'_, P> {
         self.tree()
     }
 }
 
 /// No tree: every object.
 impl<S: Quantize> OwnedAccelerator<S> for Vec<ObjectRef> {
-    type View<'a> = List<'a>;
+    type View<'a> = BruteForce<'a>;
 
-    fn view(&self) -> List<'_> {
-        List(self)
+    fn view(&self) -> BruteForce<'_> {
+        BruteForce(self)
     }
 }

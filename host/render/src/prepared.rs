@@ -4,14 +4,15 @@ use crate::cache_padded::CachePadded;
 use crate::owned::OwnedAccelerator;
 use crate::renderer::{Built, FirstHit, Renderer, Worker};
 use crate::tile::{Intensity, Level, Tile};
+use octray_core::accel::Accelerator;
+use octray_core::frame::Region;
+use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
-use octray_core::octree::Accelerator;
-use octray_core::packet::Region;
-use octray_core::scalar::Quantize;
-use octray_core::shape::ObjectRef;
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::quantize::Quantize;
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
+use octray_prepare::saturation;
 
 /// A scene in arithmetic `S` with a tree.
 pub(crate) struct PreparedScene<S: Quantize, T> {
@@ -32,10 +33,11 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
         Box::new(Tracing {
             ready: self,
             tree: self.tree.view(),
-            rays: CachePadded::new(Pending::EMPTY, self.max_depth as usize + 2),
+            rays: CachePadded::new(QueuedRay::EMPTY, self.max_depth as usize + 2),
             stack: Default::default(),
-            blockers: CachePadded::new(None, scene.lights.len()),
+            shadow_cache: CachePadded::new(None, scene.lights.len()),
             counters: Counters::default(),
+            saturations: 0,
         })
     }
 }
@@ -45,10 +47,11 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
 struct Tracing<'a, S: Quantize, T: OwnedAccelerator<S>> {
     ready: &'a PreparedScene<S, T>,
     tree: T::View<'a>,
-    rays: CachePadded<Pending<S>>,
+    rays: CachePadded<QueuedRay<S>>,
     stack: Stack<'a, S, T>,
-    blockers: CachePadded<Option<ObjectRef>>,
+    shadow_cache: CachePadded<Option<ObjectRef>>,
     counters: Counters,
+    saturations: u64,
 }
 
 /// What the walk through a tree needs.
@@ -74,9 +77,12 @@ impl<'a, S: Quantize, T: OwnedAccelerator<S>> Tracing<'a, S, T> {
         let mut workspace = Workspace {
             rays: self.rays.get(),
             stack: &mut self.stack,
-            blockers: self.blockers.get(),
+            shadow_cache: self.shadow_cache.get(),
         };
-        work(&tracer, &mut workspace, &mut self.counters)
+        let (done, saturations) =
+            saturation::counted(|| work(&tracer, &mut workspace, &mut self.counters));
+        self.saturations += saturations;
+        done
     }
 
     fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
@@ -100,7 +106,7 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
             intensities.fill(background.1);
         }
         // What blocked the lights last in another tile must not change what is counted in this one.
-        self.blockers.get().fill(None);
+        self.shadow_cache.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();
         self.render(&region, |x, y, colour| {
@@ -122,11 +128,11 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
             &ready.prepared.frame,
             (-f64::from(ready.built.scale)).exp2(),
         );
-        let samples = frame.parts().samples;
+        let samples = frame.params().samples;
         let columns = (0..ready.built.size.0).step_by(frame.block() as usize);
         let place = |column| {
             let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
-            inside.map(move |(x, y)| frame.place(column, row, x, y))
+            inside.map(move |(x, y)| frame.sample_position(column, row, x, y))
         };
         self.with(|tracer, workspace, counters| {
             let hit = |(x, y)| {
@@ -143,6 +149,10 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
 
     fn counters(&self) -> &Counters {
         &self.counters
+    }
+
+    fn saturations(&self) -> u64 {
+        self.saturations
     }
 }
 

@@ -13,9 +13,8 @@ use crate::stats::Work;
 use crate::threads::{self, idle, run_tiles};
 use crate::tile::Tile;
 use crate::tile::{TileBuffer, TileSize};
+use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::packet::Region;
-use octray_core::scalar;
 use octray_prepare::format::Format;
 use octray_prepare::settings::RenderSettings;
 use octray_scenes::model::Scene;
@@ -168,8 +167,6 @@ pub fn render_tiles(
     let shape: TileSize = schedule.tile(&region);
     let parts: Vec<_> = shape.cut(&region).collect();
     let order = order(renderer, schedule.policy, &parts, interrupt)?;
-    // Those of estimates, or of other pictures, are not this one's.
-    let before = scalar::saturations();
     let count = parts.len();
     let assembly = Framebuffer::new(picture, &region, shape);
     let threads = schedule.threads.min(at_least_one(count));
@@ -190,9 +187,10 @@ pub fn render_tiles(
         },
         || progress.step(),
     )?;
-    let mut counters = Counters::default();
+    let (mut counters, mut saturations) = (Counters::default(), 0);
     for thread in &finished {
         counters.add(thread.state.counters());
+        saturations += thread.state.saturations();
     }
     let work = Work {
         threads: finished.len(),
@@ -202,13 +200,7 @@ pub fn render_tiles(
         messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
-    let saturations = scalar::saturations().wrapping_sub(before);
-    Ok((
-        assembly.into_picture(),
-        counters,
-        work,
-        u64::from(saturations),
-    ))
+    Ok((assembly.into_picture(), counters, work, saturations))
 }
 
 /// What tracing comes to, without start-up and without the picture's file: [`TRACING`].

@@ -7,8 +7,8 @@
 pub use crate::build::{PrepareError, prepare};
 
 use crate::tile::{Intensity, Level, Tile};
+use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::packet::Region;
 use octray_prepare::format::Format;
 use octray_prepare::settings::TreeKind;
 use serde::Serialize;
@@ -37,6 +37,9 @@ pub trait Worker: Send {
 
     /// What was counted so far.
     fn counters(&self) -> &Counters;
+
+    /// Fixed-point results that had to be clamped to the format's range while this worker traced.
+    fn saturations(&self) -> u64;
 }
 
 /// What a ray of the camera meets first.

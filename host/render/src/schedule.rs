@@ -2,7 +2,7 @@
 
 use crate::scheduler::Policy;
 use crate::tile::TileSize;
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::thread::available_parallelism;
 

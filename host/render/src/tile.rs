@@ -1,6 +1,6 @@
 //! Cutting a picture into tiles (rectangles, or strips of whole rows), and the memory that each is traced into.
 
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;

@@ -5,9 +5,8 @@ use crate::job::RenderJob;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
+use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::packet::Region;
-use octray_core::scalar;
 use octray_render::cost;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -15,7 +14,7 @@ use octray_render::picture::Picture;
 use octray_render::progress::Progress;
 use octray_render::render;
 use octray_render::render::Rendering;
-use octray_render::renderer;
+use octray_render::renderer::{self, Renderer};
 use octray_render::schedule::Schedule;
 use octray_render::scheduler::Scheduler;
 use octray_render::stats::{Messages, Work};
@@ -97,10 +96,10 @@ impl<'a> Leader<'a> {
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
         // As with threads, what comes before the dealing is neither idle nor the picture's.
-        let (dealing, before) = (Instant::now(), scalar::saturations());
+        let dealing = Instant::now();
         let count = parts.len();
         progress.start(count);
-        let (counters, busy, mut messages, tallies) = {
+        let (own, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
                 deal: Scheduler::new(job.work.policy, count, threads, order),
@@ -110,18 +109,16 @@ impl<'a> Leader<'a> {
                 messages: Messages::default(),
                 tallies: vec![None; ranks],
             };
-            let (counters, busy) = desk.run(&*renderer, interrupt)?;
-            (counters, busy, desk.messages, desk.tallies)
+            let own = desk.run(&*renderer, interrupt)?;
+            (own, desk.messages, desk.tallies)
         };
         self.state = State::Done;
         let dealing = dealing.elapsed().as_secs_f64();
-        let own = scalar::saturations().wrapping_sub(before);
-        let own = Tally::new(&counters, own, busy);
         let (mut counters, mut saturations) = (Counters::default(), 0);
         let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
         for tally in &tallies {
             counters.add(&tally.counters());
-            saturations += u64::from(tally.saturations);
+            saturations += tally.saturations;
         }
         let busy: f64 = tallies.iter().map(|tally| tally.busy).sum();
         if busy > 0.0 && messages.count > 0 {
@@ -164,12 +161,8 @@ struct Desk<'a> {
 
 impl Desk<'_> {
     /// Traces tiles, and answers the others between them, until all have done all there is. Returns what
-    /// was counted here, and the time spent tracing.
-    fn run(
-        &mut self,
-        renderer: &dyn renderer::Engine,
-        interrupt: &Interrupt,
-    ) -> Result<(Counters, Duration), Error> {
+    /// was done here.
+    fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Tally, Error> {
         let mut worker = renderer.worker();
         let mut busy = Duration::ZERO;
         loop {
@@ -186,7 +179,8 @@ impl Desk<'_> {
                 self.picture.put(&part);
                 self.progress.step();
             } else if self.tallies.iter().skip(1).all(Option::is_some) {
-                return Ok((*worker.counters(), busy));
+                let (counters, saturations) = (worker.counters(), worker.saturations());
+                return Ok(Tally::new(counters, saturations, busy));
             } else {
                 pause();
             }

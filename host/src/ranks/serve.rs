@@ -7,8 +7,7 @@ use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::Process;
 use mpi::traits::{Communicator, Destination};
-use octray_core::packet::Region;
-use octray_core::scalar;
+use octray_core::frame::Region;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::renderer::{self, Worker};
@@ -40,7 +39,6 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
     let leader = world.process_at_rank(0);
     let mut worker = renderer.worker();
     let mut busy = Duration::ZERO;
-    let before = scalar::saturations();
     let nothing: [u8; 0] = [];
     for _ in 0..IN_HAND {
         leader.send_with_tag(&nothing[..], REQUEST);
@@ -60,8 +58,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         // A plain send of more than some 256 bytes lasts until the first rank looks for messages.
         leader.buffered_send_with_tag(&message[..], RESULT);
     }
-    let saturations = scalar::saturations().wrapping_sub(before);
-    let tally = Tally::new(worker.counters(), saturations, busy);
+    let tally = Tally::new(worker.counters(), worker.saturations(), busy);
     let bytes = postcard::to_stdvec(&tally).map_err(|cause| failed(cause.to_string()))?;
     leader.send_with_tag(&bytes[..], TALLY);
     Ok(())

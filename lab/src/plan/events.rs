@@ -1,6 +1,6 @@
 //! What happens while a frame is traced, counted on the host: what instructions are predicted from.
 
-use octray_core::observe::{Counters, RayKind, Searches};
+use octray_core::observe::{Counters, QueryCounts, RayKind};
 use octray_prepare::plan::Plan;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -67,7 +67,7 @@ impl Events {
         let shadow = rays(RayKind::Shadow);
         let [primary, reflected, transmitted] =
             [RayKind::Primary, RayKind::Reflected, RayKind::Transmitted].map(rays);
-        let search = |search: &Searches, closest: f64, shadow: f64| {
+        let search = |search: &QueryCounts, closest: f64, shadow: f64| {
             let mut events = [0.0; OF_SEARCH];
             events[..4].copy_from_slice(&[
                 closest,
@@ -82,7 +82,7 @@ impl Events {
             }
             events
         };
-        let [closest, blocking] = &counters.searches;
+        let [closest, blocking] = &counters.queries;
         let hits = counters.hits.iter().sum::<u64>() as f64;
         // Which of the objects met was the closest is not counted: each kind has its share.
         let met = closest.met.iter().sum::<u64>().max(1) as f64;

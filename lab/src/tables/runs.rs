@@ -1,7 +1,7 @@
 //! Where scenes are traced for the tables, each variant once.
 
 use super::subject::{Subject, Trial};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_prepare::{RenderSettings, TreeSettings};
 use octray_render::cost::{self, CostMap};
 use octray_render::error::Error;

@@ -5,7 +5,7 @@ use super::runs::Runs;
 use super::subject::FIGURES;
 use super::table::{Base, Draft, DraftLine, Quantity};
 use crate::simulate::{Machine, Outcome, simulate};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_render::cost::CostMap;
 use octray_render::error::Error;
 use octray_render::scheduler::{Policy, Scheduler};

@@ -1,10 +1,9 @@
 //! Shapes to be looked at one at a time.
 
 use crate::number::{Number, slack};
-use octray_core::ray::{Bounds, Ray};
-use octray_core::shape::{
-    Bands, Cone, Cuboid, Flat, Kind, ObjectRef, Outlines, Polygon, Shapes, Sphere,
-};
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::ray::{Aabb, Ray};
+use octray_core::shape::{Bands, Cone, Cuboid, Outlines, Plane, Polygon, Shapes, Sphere};
 use octray_core::vec3::{Axis, Vec3, vec3};
 
 /// No shapes at all.
@@ -64,7 +63,7 @@ pub fn polygon<'a, S: Number>(polygon: &'a Polygon<S>, corners: &'a [[S; 2]]) ->
 }
 
 /// The only object of its kind.
-pub const fn only(kind: Kind) -> ObjectRef {
+pub const fn only(kind: ObjectKind) -> ObjectRef {
     ObjectRef::new(kind, 0)
 }
 
@@ -72,14 +71,14 @@ pub const fn only(kind: Kind) -> ObjectRef {
 pub fn outline<S: Number>(normal: Vec3<S>, offset: S, corners: &[[S; 2]]) -> Polygon<S> {
     let all = vec3(S::MAX, S::MAX, S::MAX);
     Polygon {
-        plane: Flat {
+        plane: Plane {
             normal,
             offset,
             axis: largest(normal),
         },
         first: 0,
         count: corners.len() as u32,
-        bounds: Bounds {
+        bounds: Aabb {
             low: -all,
             high: all,
         },
@@ -112,7 +111,7 @@ pub fn largest<S: Number>(v: Vec3<S>) -> Axis {
 /// Where a ray meets the only shape of a kind, and the unit normal there.
 pub fn hit<S: Number>(
     shapes: &Shapes<'_, S>,
-    kind: Kind,
+    kind: ObjectKind,
     ray: &Ray<S>,
     limit: S,
 ) -> Option<(S, Vec3<S>)> {

@@ -1,12 +1,13 @@
 //! What rays the tracer sends on from a surface, seen by an accelerator that never finds another.
 
+use octray_core::accel::{Accelerator, Hit};
+use octray_core::object::ObjectRef;
 use octray_core::observe::Observer;
-use octray_core::octree::{Accelerator, Hit};
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
 use octray_core::scene::{Attributes, Scene, Surface};
-use octray_core::shape::{ObjectRef, Shapes};
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::shape::Shapes;
+use octray_core::trace::{QueuedRay, TraceScalar, Tracer, Workspace};
 use octray_core::vec3::Vec3;
 
 /// The rays that left a surface.
@@ -67,7 +68,7 @@ pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
 }
 
 /// The rays that the tracer sends on from where `ray` meets an object of `shapes`.
-pub fn leaving<S: Scalar>(
+pub fn leaving<S: TraceScalar>(
     shapes: Shapes<'_, S>,
     surface: Surface<S>,
     ray: &Ray<S>,
@@ -89,7 +90,7 @@ pub fn leaving<S: Scalar>(
         surfaces: &surfaces,
         lights: &[],
         background: Vec3::ZERO,
-        reach: S::MAX,
+        diameter: S::MAX,
     };
     let tracer = Tracer {
         scene: &scene,
@@ -99,9 +100,9 @@ pub fn leaving<S: Scalar>(
     };
     let mut seen = Seen::default();
     let mut workspace = Workspace {
-        rays: &mut [Pending::EMPTY; 2],
+        rays: &mut [QueuedRay::EMPTY; 2],
         stack: &mut seen,
-        blockers: &mut [],
+        shadow_cache: &mut [],
     };
     tracer.radiance(*ray, &mut workspace, &mut ());
     seen

@@ -1,6 +1,8 @@
 //! Numbers of every format as Rust source.
 
-use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize, Reciprocal};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::SaturationCounter;
+use octray_core::scalar::{Approx, Fixed, Fixed64, Reciprocal};
 
 /// A format whose numbers can be written down.
 pub trait Literal: Quantize {
@@ -16,10 +18,10 @@ pub trait Literal: Quantize {
     fn reciprocal_source(reciprocal: Self::Reciprocal) -> String;
 }
 
-impl<const F: u32, const CHECKED: bool> Literal for Fixed<F, CHECKED> {
+impl<const F: u32, C: SaturationCounter> Literal for Fixed<F, C> {
     // Saturations are proved not to happen: nothing is checked on the target.
     fn type_name() -> String {
-        format!("scalar::Fixed<{F}, false>")
+        format!("scalar::Fixed<{F}>")
     }
     const RAW: &'static str = "i32";
     const FROM_RAW: &'static str = "S::from_bits(raw)";
@@ -32,7 +34,7 @@ impl<const F: u32, const CHECKED: bool> Literal for Fixed<F, CHECKED> {
     }
 }
 
-impl Literal for Fixed64 {
+impl<C: SaturationCounter> Literal for Fixed64<C> {
     fn type_name() -> String {
         "scalar::Fixed64".into()
     }

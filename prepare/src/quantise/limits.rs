@@ -1,7 +1,7 @@
 //! What cannot be scaled: light, coefficients, refraction indices. Interval bounds over the scene
 //! say how large they and all that is computed from them can become.
 
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_scenes::model::Scene;
 use thiserror::Error;
 

@@ -7,8 +7,8 @@ use crate::number::{self, Number, counted, exactly, floats};
 use crate::random::{self, Random, dot as dot64};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
@@ -223,7 +223,7 @@ fn compare<S: Number>(
         radii: cone.radii.map(|r| place.length(r)),
     };
     let found = [
-        counted(|| fixtures::hit(&shapes, Kind::Cone, ray, S::MAX)),
+        counted(|| fixtures::hit(&shapes, ObjectKind::Cone, ray, S::MAX)),
         counted(|| textbook(&numbers, ray)),
     ];
     for ((found, saturations), tally) in found.into_iter().zip(tallies) {

@@ -8,10 +8,10 @@ use crate::number::{self, Number, counted, exactly};
 use crate::random::{self, Random};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::Hit;
+use octray_core::accel::Hit;
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::scene::Surface;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 
 /// Rays that meet a mirror at a cosine of 1 to 10⁻⁷.
@@ -100,7 +100,7 @@ pub(super) fn leaving<S: Number>(
     let plane = outline(normal, S::ZERO, &[]);
     let hit = Hit {
         t: S::ZERO,
-        object: only(Kind::Polygon),
+        object: only(ObjectKind::Polygon),
     };
     mock_accelerator::leaving(polygon(&plane, &[]), surface, &ray, hit)
 }

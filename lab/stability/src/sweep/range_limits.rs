@@ -8,8 +8,9 @@ use crate::number::{self, Number, counted, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::{self, Kind};
+use octray_core::shape;
 use octray_core::vec3::Axis;
 use octray_scenes::model::Shape;
 
@@ -110,14 +111,14 @@ fn measure<S: Number>(size: f64, tally: &mut Tally) {
         let towards = number::direction::<S>(random::add(aim, random::times(corner, -1.0)));
         let ray = number::ray(corner, towards);
         let hit = |ray: &Ray<S>| {
-            Some(fixtures::hit(&fixtures::sphere(&ball), Kind::Sphere, ray, S::MAX)?.0)
+            Some(fixtures::hit(&fixtures::sphere(&ball), ObjectKind::Sphere, ray, S::MAX)?.0)
         };
         take(
             sphere::truth(&ball, &ray).map(|(t, _)| t),
             counted(|| hit(&ray)),
         );
         let hit = |ray: &Ray<S>| {
-            Some(fixtures::hit(&fixtures::cuboid(&block), Kind::Cuboid, ray, S::MAX)?.0)
+            Some(fixtures::hit(&fixtures::cuboid(&block), ObjectKind::Cuboid, ray, S::MAX)?.0)
         };
         take(slab::truth(&block, &ray), counted(|| hit(&ray)));
         let along = along(&block, case, &mut random);

@@ -2,25 +2,26 @@
 //! tracing every shape. Built for a target without floating point, to see what it links.
 #![no_std]
 
-use octray_core::camera::Camera;
-use octray_core::octree::{
-    Link, List, Octant, Octants, Options, Packed, PackedStack, Stack, Tight, TightMemory, Variant,
+use octray_core::accel::{
+    BruteForce, BuildOptions, Bvh8, Bvh8Memory, CompactBvh8, CompactStack, LinkBy, Octree,
+    OctreeNode, OctreeVariant, TraversalStack,
 };
-use octray_core::packet::{Frame, Region};
-use octray_core::ray::Bounds;
-use octray_core::scalar::{Fixed, Scalar};
+use octray_core::camera::Camera;
+use octray_core::frame::{Frame, Region};
+use octray_core::object::ObjectRef;
+use octray_core::ray::Aabb;
+use octray_core::scalar::{Fixed, Intensity, Scalar};
 use octray_core::scene::Scene;
-use octray_core::shape::ObjectRef;
 use octray_core::trace::{Tracer, Workspace};
 
-type Number = Fixed<28, false>;
+type Number = Fixed<28>;
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     loop {}
 }
 
-const OPTIONS: Options = Options {
+const OPTIONS: BuildOptions = BuildOptions {
     depth: 8,
     leaf_size: 2,
 };
@@ -49,32 +50,32 @@ macro_rules! render {
     }};
 }
 
-/// Renders with a tight tree built here.
+/// Renders with an 8-wide BVH built here.
 #[unsafe(no_mangle)]
-pub fn octray_tight(
+pub fn octray_bvh8(
     scene: &Scene<'_, Number>,
-    memory: TightMemory<'_, i32>,
+    memory: Bvh8Memory<'_, i32>,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    workspace: &mut Workspace<'_, Number, TraversalStack<i32>>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = Tight::build(&scene.shapes, memory, OPTIONS) {
+    if let Ok((tree, _)) = Bvh8::build(&scene.shapes, memory, OPTIONS) {
         render!(scene, camera, &tree, workspace, row);
     }
 }
 
 /// Renders with the thesis's trees built here.
 #[unsafe(no_mangle)]
-pub fn octray_octants(
+pub fn octray_octree(
     scene: &Scene<'_, Number>,
-    nodes: &mut [Octant<i32>],
+    nodes: &mut [OctreeNode<i32>],
     links: &mut [ObjectRef],
-    variant: Variant,
+    variant: OctreeVariant,
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, Stack<i32>>,
+    workspace: &mut Workspace<'_, Number, TraversalStack<i32>>,
     row: &mut Row,
 ) {
-    let built = Octants::build(&scene.shapes, nodes, links, OPTIONS, variant, Link::Shape);
+    let built = Octree::build(&scene.shapes, nodes, links, OPTIONS, variant, LinkBy::Shape);
     if let Ok((tree, _)) = built {
         render!(scene, camera, &tree, workspace, row);
     }
@@ -82,28 +83,30 @@ pub fn octray_octants(
 
 /// Renders without a tree.
 #[unsafe(no_mangle)]
-pub fn octray_list(
+pub fn octray_brute_force(
     scene: &Scene<'_, Number>,
     objects: &[ObjectRef],
     camera: &Camera<Number>,
     workspace: &mut Workspace<'_, Number, ()>,
     row: &mut Row,
 ) {
-    render!(scene, camera, &List(objects), workspace, row);
+    render!(scene, camera, &BruteForce(objects), workspace, row);
 }
 
-/// Renders with a packed tree built here.
+/// Renders with a compact BVH built here.
 #[unsafe(no_mangle)]
-pub fn octray_packed(
+pub fn octray_compact_bvh8(
     scene: &Scene<'_, Number>,
     words: &mut [u32],
     links: &mut [ObjectRef],
-    boxes: &mut [Bounds<i32>],
+    boxes: &mut [Aabb<i32>],
     camera: &Camera<Number>,
-    workspace: &mut Workspace<'_, Number, PackedStack>,
+    workspace: &mut Workspace<'_, Number, CompactStack>,
     row: &mut Row,
 ) {
-    if let Ok((tree, _)) = Packed::build(&scene.shapes, scene.reach, words, links, boxes, OPTIONS) {
+    if let Ok((tree, _)) =
+        CompactBvh8::build(&scene.shapes, scene.diameter, words, links, boxes, OPTIONS)
+    {
         render!(scene, camera, &tree, workspace, row);
     }
 }

@@ -35,8 +35,8 @@ const ALLOWED: &[&str] = &[
 
 #[test]
 fn fixed_point_links_no_float_no_formatting_and_no_panic() {
-    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("thumb");
-    let target = package.join("../../target/thumb");
+    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/thumb");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("thumb");
     let output = Command::new(env!("CARGO"))
         .args(["build", "--release", "--target", TARGET])
         .current_dir(&package)
@@ -72,10 +72,10 @@ fn fixed_point_links_no_float_no_formatting_and_no_panic() {
         }
     }
     let entries = [
-        "octray_tight",
-        "octray_packed",
-        "octray_octants",
-        "octray_list",
+        "octray_bvh8",
+        "octray_compact_bvh8",
+        "octray_octree",
+        "octray_brute_force",
     ];
     assert!(entries.iter().all(|e| defined.contains(*e)), "{defined:?}");
 

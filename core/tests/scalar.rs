@@ -3,7 +3,9 @@
 use fastrand::Rng;
 use fixed::types::extra::{U8, U12, U16, U20, U24, U28, U32};
 use fixed::{FixedI32, FixedI64};
-use octray_core::scalar::{Approx, Exponent, Fixed, Fixed64, Quantize, Scalar};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Approx, Exponent, Fixed, Fixed64, SaturationCounter, Scalar};
+use octray_prepare::saturation::PerThread;
 use proptest::prelude::*;
 
 /// The worst errors allowed. Floats: relative, in units of 2^−24 (`f64`: 2^−53), but for `power`.
@@ -64,7 +66,7 @@ macro_rules! laws {
             }
 
             #[test]
-            fn what_surely_exceeds_does(a: u64, b: u64, limit: u64) {
+            fn what_exceeds_by_the_shortcut_does(a: u64, b: u64, limit: u64) {
                 exceeds::<$s>(a.number(), b.number(), limit.number());
             }
 
@@ -88,14 +90,14 @@ budgets! {
     approx0: Approx<0>       => [6e5, 2.1e6, 2.1e6,    6e5,   6e5,   2.1,  6e-6];
     approx1: Approx<1>       => [3.1e4, 2.7e5, 2.7e5,  3.1e4, 3.1e4, 2.1,  6e-6];
     approx2: Approx<2>       => [84.0, 4.1e3, 4.1e3,   84.0,  84.0,  2.1,  6e-6];
-    i24f8: Fixed<8, true>    => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  2e-3];
-    i20f12: Fixed<12, true>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1.3e-4];
-    i16f16: Fixed<16, true>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  9e-6];
-    i12f20: Fixed<20, true>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1.5e-6];
-    i8f24: Fixed<24, true>   => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1e-6];
-    i4f28: Fixed<28, true>   => [2.0,   2.5,   2.5,    1.5,   2.0,   1.6,  1e-6];
-    wrapping: Fixed<28, false> => [2.0, 2.5,   2.5,    1.5,   2.0,   1.6,  1e-6];
-    i32f32: Fixed64          => [1.0,   1.0,   1.0,    0.2,   1.0,   1.0,  1e-4];
+    i24f8: Fixed<8, PerThread>    => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  2e-3];
+    i20f12: Fixed<12, PerThread>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1.3e-4];
+    i16f16: Fixed<16, PerThread>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  9e-6];
+    i12f20: Fixed<20, PerThread>  => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1.5e-6];
+    i8f24: Fixed<24, PerThread>   => [1.1,   2.5,   2.5,    0.6,   2.0,   0.6,  1e-6];
+    i4f28: Fixed<28, PerThread>   => [2.0,   2.5,   2.5,    1.5,   2.0,   1.6,  1e-6];
+    wrapping: Fixed<28> => [2.0, 2.5,   2.5,    1.5,   2.0,   1.6,  1e-6];
+    i32f32: Fixed64<PerThread> => [1.0,   1.0,   1.0,    0.2,   1.0,   1.0,  1e-4];
 }
 
 /// The worst errors over many operands of all sizes.
@@ -112,7 +114,7 @@ fn measure<S: Quantize>(budget: &Budget) {
         let (x, y) = (a.to_f64(), b.to_f64());
         note(&mut worst.sqrt, a.sqrt(), x.sqrt());
         note(&mut worst.quotient, a.quotient(b), x / y);
-        note(&mut worst.scaled, a.scaled(b.reciprocal()), x / y);
+        note(&mut worst.scaled, a.times_reciprocal(b.reciprocal()), x / y);
         let n = rng.u32(1..1 << 24);
         let numerator = rng.i32(-(n as i32)..=n as i32);
         let ratio = S::ratio(numerator, S::whole_reciprocal(n));
@@ -202,8 +204,8 @@ impl Bits for u64 {
 
     fn moderate<S: Any>(self) -> S {
         let unit = (self >> 11) as f64 / (1u64 << 53) as f64;
-        let reach = S::MAX.to_f64().min(1e15).sqrt() / 2.0;
-        S::from_f64((2.0 * unit - 1.0) * reach)
+        let largest = S::MAX.to_f64().min(1e15).sqrt() / 2.0;
+        S::from_f64((2.0 * unit - 1.0) * largest)
     }
 }
 
@@ -230,7 +232,7 @@ impl<const N: u32> Any for Approx<N> {
     }
 }
 
-impl<const F: u32, const CHECKED: bool> Any for Fixed<F, CHECKED> {
+impl<const F: u32, C: SaturationCounter> Any for Fixed<F, C> {
     fn any(bits: u64) -> Self {
         // The ends of the range are tried more often than by chance.
         Self::from_bits(match bits >> 60 {
@@ -243,7 +245,7 @@ impl<const F: u32, const CHECKED: bool> Any for Fixed<F, CHECKED> {
     }
 }
 
-impl Any for Fixed64 {
+impl<C: SaturationCounter> Any for Fixed64<C> {
     fn any(bits: u64) -> Self {
         let top = Self::MAX;
         match bits >> 60 {
@@ -272,19 +274,19 @@ fn every_operation<S: Quantize>([a, b, c]: [S; 3], n: i32, e: i8, whole: u32) {
         S::sqrt_wide(wide),
         a.sqrt(),
         a.quotient(b),
-        a.scaled(b.reciprocal()),
+        a.times_reciprocal(b.reciprocal()),
         S::ratio(n, S::whole_reciprocal(whole.clamp(1, i32::MAX as u32))),
         S::unit([a, b, c]).1,
         a.to_local(e),
         a.to_global(e),
         S::surface_error(a, b),
         a.accumulate(b),
-        S::from_plane(a.plane()),
+        S::from_bound(a.to_bound()),
         S::from_f64(f64::from(n)),
         a.power(Exponent { whole, fraction }),
     ];
     for number in numbers {
-        let _ = (number.level(), number.to_f64(), number.slope());
+        let _ = (number.level(), number.to_f64(), number.inv_direction());
     }
 }
 
@@ -317,15 +319,15 @@ fn saturates<S: Quantize>(a: S, b: S) {
     }
 }
 
-/// [`Scalar::surely_exceeds`] is a shortcut, never a decision of its own.
+/// `Scalar::quotient_exceeds` is a shortcut, never a decision of its own.
 fn exceeds<S: Quantize>(a: S, b: S, limit: S) {
     let (a, b, limit) = (a.abs(), b.abs(), limit.abs());
-    if a >= S::ZERO && b > S::ZERO && limit >= S::ZERO && S::surely_exceeds(a, b, limit) {
+    if a >= S::ZERO && b > S::ZERO && limit >= S::ZERO && S::quotient_exceeds(a, b, limit) {
         assert!(a.quotient(b) > limit || limit == S::MAX);
     }
 }
 
-/// What [`Scalar::to_local`] did not push out of the format comes back.
+/// What `Scalar::to_local` did not push out of the format comes back.
 fn goes_back<S: Quantize>(a: S, e: i8) {
     let local = a.to_local(e);
     let fits = S::FRACTION_BITS.is_none()
@@ -357,10 +359,10 @@ fn black_and_white_are_exact() {
     ends::<f64>();
     ends::<f32>();
     ends::<Approx<0>>();
-    ends::<Fixed<8, true>>();
-    ends::<Fixed<16, true>>();
-    ends::<Fixed<28, false>>();
-    ends::<Fixed64>();
+    ends::<Fixed<8, PerThread>>();
+    ends::<Fixed<16, PerThread>>();
+    ends::<Fixed<28>>();
+    ends::<Fixed64<PerThread>>();
 }
 
 /// Conversions and products against a fixed-point library that others wrote.
@@ -372,7 +374,7 @@ fn fixed_point_agrees_with_another_library() {
             for _ in 0..100_000 {
                 let x = (rng.f64() - 0.5) * 2f64.powi(rng.i32(-30..34));
                 let theirs = FixedI32::<$bits>::saturating_from_num(x).to_bits();
-                let ours = Fixed::<$f, true>::from_f64(x);
+                let ours = Fixed::<$f, PerThread>::from_f64(x);
                 let tie = (x * 2f64.powi($f)).fract().abs() == 0.5;
                 assert!(
                     ours.to_bits() == theirs.max(-i32::MAX) || tie,
@@ -382,7 +384,7 @@ fn fixed_point_agrees_with_another_library() {
                 let exact =
                     FixedI32::<$bits>::from_bits(a).wide_mul(FixedI32::<$bits>::from_bits(b));
                 let rounded = (exact.to_bits() + (1 << ($f - 1))) >> $f;
-                let [a, b] = [a, b].map(Fixed::<$f, true>::from_bits);
+                let [a, b] = [a, b].map(Fixed::<$f, PerThread>::from_bits);
                 let clamped = rounded.clamp(-i64::from(i32::MAX), i64::from(i32::MAX));
                 assert_eq!(i64::from((a * b).to_bits()), clamped);
                 assert_eq!(
@@ -406,9 +408,12 @@ fn fixed_point_agrees_with_another_library() {
         let product = (a.wide_mul(b).to_bits() + (1 << 31)) >> 32;
         let theirs = FixedI64::<U32>::from_bits(product as i64).to_num::<f64>();
         assert_eq!(
-            (Fixed64::from_f64(x) * Fixed64::from_f64(y)).to_f64(),
+            (Fixed64::<PerThread>::from_f64(x) * Fixed64::<PerThread>::from_f64(y)).to_f64(),
             theirs
         );
-        assert_eq!(Fixed64::from_f64(x).to_f64(), a.to_num::<f64>());
+        assert_eq!(
+            Fixed64::<PerThread>::from_f64(x).to_f64(),
+            a.to_num::<f64>()
+        );
     }
 }
