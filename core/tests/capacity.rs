@@ -9,7 +9,8 @@ use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
 use octray_core::trace::{QueuedRay, Tracer, Workspace, required_rays};
 use octray_core::vec3::Vec3;
-use octray_prepare::quantise::{Prepared, View, quantise};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::{Prepared, quantise};
 use octray_prepare::tree::{Growth, OwnedCompactBvh8, every_object};
 use octray_scenes::generate::{Kind, Spec, generate};
 

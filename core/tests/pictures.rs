@@ -7,9 +7,10 @@ use octray_core::observe::Counters;
 use octray_core::quantize::Quantize;
 use octray_core::scalar::Fixed;
 use octray_core::trace::{QueuedRay, Tracer, required_rays};
-use octray_prepare::quantise::{Prepared, View, finest, quantise};
+use octray_prepare::quantise::{Prepared, quantise};
 use octray_prepare::saturation::PerThread;
 use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
+use octray_prepare::{Arith, Format, RenderSettings};
 use octray_scenes::model::Scene;
 use std::path::{Path, PathBuf};
 
@@ -45,14 +46,16 @@ fn pictures_are_the_same_in_f64() {
 
 #[test]
 fn pictures_are_the_same_in_the_finest_fixed_point() {
-    all_scenes(|scene, name| match finest(scene, VIEW.max_depth) {
-        "i4f28" => compare::<Fixed<28, PerThread>>(scene, name),
-        "i8f24" => compare::<Fixed<24, PerThread>>(scene, name),
-        "i12f20" => compare::<Fixed<20, PerThread>>(scene, name),
-        "i16f16" => compare::<Fixed<16, PerThread>>(scene, name),
-        "i20f12" => compare::<Fixed<12, PerThread>>(scene, name),
-        _ => compare::<Fixed<8, PerThread>>(scene, name),
-    });
+    all_scenes(
+        |scene, name| match Arith::Auto.format(scene, VIEW.max_depth) {
+            Format::I4F28 => compare::<Fixed<28, PerThread>>(scene, name),
+            Format::I8F24 => compare::<Fixed<24, PerThread>>(scene, name),
+            Format::I12F20 => compare::<Fixed<20, PerThread>>(scene, name),
+            Format::I16F16 => compare::<Fixed<16, PerThread>>(scene, name),
+            Format::I20F12 => compare::<Fixed<12, PerThread>>(scene, name),
+            _ => compare::<Fixed<8, PerThread>>(scene, name),
+        },
+    );
 }
 
 fn all_scenes(compare: impl Fn(&Scene, &str)) {
