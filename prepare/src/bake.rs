@@ -16,15 +16,15 @@
 //! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
 //! | `NAME`, `ARITH` | the scene and the format, to be told |
 
-mod literal;
 mod source;
 
-pub use literal::Literal;
-
-use crate::format::{Format, InFormat};
-use crate::quantise::{Overflow, Prepared, quantise};
+use crate::dispatch::InFormat;
+use crate::format::Format;
+use crate::literal::Literal;
+use crate::prepare::Prepare;
+use crate::quantise::{Overflow, Prepared};
 use crate::settings::{RenderSettings, TreeKind};
-use crate::tree::{Growth, OwnedCompactBvh8, every_object};
+use crate::tree::{Growth, every_object};
 use octray_core::features::{self, FeatureSet};
 use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
@@ -106,7 +106,7 @@ pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError
     struct Task<'a>(&'a Scene, &'a BakeOptions<'a>, Format);
     impl InFormat for Task<'_> {
         type Output = Result<Baked, BakeError>;
-        fn run<S: Literal>(self) -> Self::Output {
+        fn run<S: Prepare>(self) -> Self::Output {
             bake_as::<S>(self.0, self.1, self.2)
         }
     }
@@ -115,20 +115,20 @@ pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError
     format.dispatch(Task(scene, options, format))
 }
 
-fn bake_as<S: Literal>(
+fn bake_as<S: Prepare>(
     scene: &Scene,
     options: &BakeOptions<'_>,
     format: Format,
 ) -> Result<Baked, BakeError> {
     let settings = &options.settings;
-    let mut prepared = quantise::<S>(scene, settings).map_err(BakeError::Overflow)?;
+    let mut prepared = S::quantised(scene, settings).map_err(BakeError::Overflow)?;
     let growth = settings.tree.build_options(format, options.target);
     let grow = |scene: &mut _| {
         let growth = Growth {
             options: growth,
             arena: None,
         };
-        OwnedCompactBvh8::build(scene, &growth)
+        S::compact_bvh8(scene, &growth)
             .map_err(|_| BakeError::TooMany)
             .map(|(tree, _)| tree)
     };

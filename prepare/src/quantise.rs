@@ -10,12 +10,11 @@
 
 mod camera;
 mod extent;
-mod limits;
 mod resolution;
 mod shapes;
 
+pub use crate::limits::{Bound, Overflow, bounds, limits};
 pub use extent::Extent;
-pub use limits::{Bound, Overflow, bounds, limits};
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::settings::RenderSettings;

@@ -5,9 +5,10 @@
 use octray_core::accel::{Accelerator, TraversalStack};
 use octray_core::quantize::Quantize;
 use octray_prepare::Arith;
+use octray_prepare::Prepare;
 use octray_prepare::RenderSettings;
-use octray_prepare::bake::Literal;
-use octray_prepare::format::{Format, InFormat};
+use octray_prepare::dispatch::InFormat;
+use octray_prepare::format::Format;
 use octray_prepare::quantise::quantise;
 use octray_prepare::tree::{Growth, OwnedBvh8};
 use octray_render::metric::Difference;
@@ -92,7 +93,7 @@ fn first_objects_in(format: Format, scene: &Scene) -> Vec<Option<u32>> {
     struct Task<'a>(&'a Scene);
     impl InFormat for Task<'_> {
         type Output = Vec<Option<u32>>;
-        fn run<S: Literal>(self) -> Self::Output {
+        fn run<S: Prepare>(self) -> Self::Output {
             first_objects::<S>(self.0)
         }
     }

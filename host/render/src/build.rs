@@ -4,12 +4,12 @@ use crate::owned::OwnedAccelerator;
 use crate::prepared::{PreparedScene, intensity, level};
 use crate::renderer::{Built, Renderer, TreeStats};
 use octray_core::accel::{self, BuildStats, OctreeVariant};
-use octray_core::quantize::Quantize;
-use octray_prepare::bake::Literal;
-use octray_prepare::format::{Format, InFormat};
-use octray_prepare::quantise::{self, Overflow, Prepared};
+use octray_prepare::dispatch::InFormat;
+use octray_prepare::format::Format;
+use octray_prepare::prepare::Prepare;
+use octray_prepare::quantise::{Overflow, Prepared};
 use octray_prepare::settings::{Link, RenderSettings, TreeKind};
-use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
+use octray_prepare::tree::{Growth, every_object};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 
@@ -51,14 +51,14 @@ struct Request<'a> {
 impl InFormat for Request<'_> {
     type Output = Result<Box<dyn Renderer>, PrepareError>;
 
-    fn run<S: Literal>(self) -> Self::Output {
+    fn run<S: Prepare>(self) -> Self::Output {
         self.build::<S>()
     }
 }
 
 impl Request<'_> {
-    fn build<S: Quantize>(&self) -> Result<Box<dyn Renderer>, PrepareError> {
-        let mut prepared = quantise::quantise::<S>(self.scene, self.settings)?;
+    fn build<S: Prepare>(&self) -> Result<Box<dyn Renderer>, PrepareError> {
+        let mut prepared = S::quantised(self.scene, self.settings)?;
         let tree = &self.settings.tree;
         let growth = Growth {
             options: tree.build_options(self.format, None),
@@ -66,18 +66,21 @@ impl Request<'_> {
         };
         let variant = match tree.kind {
             TreeKind::Bvh8 => {
-                let (tree, summary) = OwnedBvh8::build(&mut prepared.scene, &growth);
+                let (tree, summary) = S::bvh8(&mut prepared.scene, &growth);
+                let tree = OwnedAccelerator::Bvh8(tree);
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::CompactBvh8 => {
-                let (tree, summary) = OwnedCompactBvh8::build(&mut prepared.scene, &growth)
+                let (tree, summary) = S::compact_bvh8(&mut prepared.scene, &growth)
                     .map_err(|_| PrepareError::Objects)?;
+                let tree = OwnedAccelerator::CompactBvh8(tree);
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::None => {
                 let all = every_object(&prepared.scene);
                 let summary = BuildStats::of_list(all.len() as u32);
-                return Ok(self.ready(prepared, all, summary));
+                let tree = OwnedAccelerator::BruteForce(all);
+                return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::Modified => OctreeVariant::Modified,
             TreeKind::Plain => OctreeVariant::Plain,
@@ -86,21 +89,21 @@ impl Request<'_> {
             Link::Shape => accel::LinkBy::Shape,
             Link::Box => accel::LinkBy::Box,
         };
-        let (tree, summary) = OwnedOctree::build(&mut prepared.scene, &growth, variant, link);
-        Ok(self.ready(prepared, tree, summary))
+        let (tree, summary) = S::octree(&mut prepared.scene, &growth, variant, link);
+        Ok(self.ready(prepared, OwnedAccelerator::Octree(tree), summary))
     }
 
-    fn ready<S: Quantize, T: OwnedAccelerator<S> + 'static>(
+    fn ready<S: Prepare>(
         &self,
         prepared: Prepared<S>,
-        tree: T,
+        tree: OwnedAccelerator<S::Bound>,
         summary: BuildStats,
     ) -> Box<dyn Renderer> {
         let background = prepared.scene.background;
         let built = Built {
             format: self.format,
             scale: prepared.placement.exponent,
-            too_fine: quantise::resolution::<S>(self.scene, self.settings)
+            too_fine: S::resolution(self.scene, self.settings)
                 .err()
                 .map(|fine| fine.to_string()),
             tree: TreeStats {

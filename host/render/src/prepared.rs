@@ -1,10 +1,9 @@
 //! A scene in some arithmetic with some tree, and what one thread traces it with.
 
 use crate::cache_padded::CachePadded;
-use crate::owned::OwnedAccelerator;
+use crate::owned::{AnyAccelerator, AnyStack, OwnedAccelerator};
 use crate::renderer::{Built, FirstHit, Renderer, Worker};
 use crate::tile::{Intensity, Level, Tile};
-use octray_core::accel::Accelerator;
 use octray_core::frame::Region;
 use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
@@ -15,15 +14,15 @@ use octray_prepare::quantise::Prepared;
 use octray_prepare::saturation;
 
 /// A scene in arithmetic `S` with a tree.
-pub(crate) struct PreparedScene<S: Quantize, T> {
+pub(crate) struct PreparedScene<S: Quantize> {
     pub(crate) prepared: Prepared<S>,
-    pub(crate) tree: T,
+    pub(crate) tree: OwnedAccelerator<S::Bound>,
     pub(crate) built: Built,
     pub(crate) max_depth: u32,
     pub(crate) cut_off: S,
 }
 
-impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
+impl<S: Quantize> Renderer for PreparedScene<S> {
     fn built(&self) -> &Built {
         &self.built
     }
@@ -34,7 +33,7 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
             ready: self,
             tree: self.tree.view(),
             rays: CachePadded::new(QueuedRay::EMPTY, self.max_depth as usize + 2),
-            stack: Default::default(),
+            stack: AnyStack::default(),
             shadow_cache: CachePadded::new(None, scene.lights.len()),
             counters: Counters::default(),
             saturations: 0,
@@ -44,26 +43,23 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Renderer for PreparedScene<S, T> {
 
 /// What one thread traces with, in cache lines of its own as [`CachePadded`] has it.
 #[repr(align(128))]
-struct Tracing<'a, S: Quantize, T: OwnedAccelerator<S>> {
-    ready: &'a PreparedScene<S, T>,
-    tree: T::View<'a>,
+struct Tracing<'a, S: Quantize> {
+    ready: &'a PreparedScene<S>,
+    tree: AnyAccelerator<'a, S::Bound>,
     rays: CachePadded<QueuedRay<S>>,
-    stack: Stack<'a, S, T>,
+    stack: AnyStack<S::Bound>,
     shadow_cache: CachePadded<Option<ObjectRef>>,
     counters: Counters,
     saturations: u64,
 }
 
-/// What the walk through a tree needs.
-type Stack<'a, S, T> = <<T as OwnedAccelerator<S>>::View<'a> as Accelerator<S>>::Stack;
-
-impl<'a, S: Quantize, T: OwnedAccelerator<S>> Tracing<'a, S, T> {
+impl<'a, S: Quantize> Tracing<'a, S> {
     /// Does something with what it takes to trace a ray.
     fn with<R>(
         &mut self,
         work: impl FnOnce(
-            &Tracer<'_, S, T::View<'a>>,
-            &mut Workspace<'_, S, Stack<'a, S, T>>,
+            &Tracer<'_, S, AnyAccelerator<'a, S::Bound>>,
+            &mut Workspace<'_, S, AnyStack<S::Bound>>,
             &mut Counters,
         ) -> R,
     ) -> R {
@@ -85,7 +81,8 @@ impl<'a, S: Quantize, T: OwnedAccelerator<S>> Tracing<'a, S, T> {
         done
     }
 
-    fn render(&mut self, region: &Region, put: impl FnMut(u32, u32, Vec3<S>)) {
+    /// `put` is called through a pointer, so that there is one copy of all that is inlined here.
+    fn render(&mut self, region: &Region, put: &mut dyn FnMut(u32, u32, Vec3<S>)) {
         let frame = &self.ready.prepared.frame;
         self.with(|tracer, workspace, counters| {
             frame.render_region(region, tracer, workspace, counters, put);
@@ -93,7 +90,7 @@ impl<'a, S: Quantize, T: OwnedAccelerator<S>> Tracing<'a, S, T> {
     }
 }
 
-impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
+impl<S: Quantize> Worker for Tracing<'_, S> {
     fn trace(&mut self, tile: Tile<'_>) {
         let Tile {
             region,
@@ -109,7 +106,7 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
         self.shadow_cache.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();
-        self.render(&region, |x, y, colour| {
+        self.render(&region, &mut |x, y, colour| {
             let pixel = (y - top) as usize * width + (x - left) as usize;
             levels[pixel] = level(colour);
             if let Some(intensities) = &mut intensities {
@@ -119,7 +116,7 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
     }
 
     fn probe(&mut self, region: &Region) {
-        self.render(region, |_, _, _| {});
+        self.render(region, &mut |_, _, _| {});
     }
 
     fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>> {
@@ -157,9 +154,10 @@ impl<S: Quantize, T: OwnedAccelerator<S>> Worker for Tracing<'_, S, T> {
 }
 
 pub(crate) fn level<S: Quantize>(colour: Vec3<S>) -> Level {
-    colour.to_array().map(S::level)
+    [colour.x.level(), colour.y.level(), colour.z.level()]
 }
 
 pub(crate) fn intensity<S: Quantize>(colour: Vec3<S>) -> Intensity {
-    colour.to_array().map(|x| x.to_f64().clamp(0.0, 1.0) as f32)
+    let share = |x: S| x.to_f64().clamp(0.0, 1.0) as f32;
+    [share(colour.x), share(colour.y), share(colour.z)]
 }

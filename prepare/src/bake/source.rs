@@ -1,6 +1,7 @@
 //! The tables as Rust source.
 
-use super::{BakeOptions, Literal};
+use super::BakeOptions;
+use crate::literal::Literal;
 use crate::quantise::Prepared;
 use octray_core::accel;
 use octray_core::camera::Projection;
