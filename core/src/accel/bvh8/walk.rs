@@ -125,7 +125,7 @@ impl<B: ClipBoxes> Bvh8<'_, B> {
                     }
                 }
                 let start = (word & !ChildWord::LEAF) as usize;
-                if query.test_list(self.links.get(start..).unwrap_or(&[])) {
+                if query.test_list::<true>(self.links.get(start..).unwrap_or(&[])) {
                     return;
                 }
             };

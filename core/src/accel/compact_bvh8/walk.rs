@@ -81,7 +81,7 @@ impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
                     break place as usize * CHILD;
                 }
                 let start = (place & !LEAF) as usize;
-                if query.test_list(self.links.get(start..).unwrap_or_default()) {
+                if query.test_list::<false>(self.links.get(start..).unwrap_or_default()) {
                     return;
                 }
                 limit = self.ticks(query.limit.to_grid());

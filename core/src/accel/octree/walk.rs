@@ -44,7 +44,7 @@ impl<B: BoundScalar> Octree<'_, B> {
             let start = node.first as usize;
             let end = start + node.count() as usize;
             if node.is_leaf() {
-                if query.test_list(self.links.get(start..end).unwrap_or_default()) {
+                if query.test_list::<false>(self.links.get(start..end).unwrap_or_default()) {
                     return;
                 }
                 continue;
