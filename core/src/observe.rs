@@ -1,6 +1,6 @@
-//! What the tracer tells whoever wants to know: rays by kind, steps, tests.
+//! Events of tracing: rays by kind, steps, tests, and what found no room.
 
-use crate::shape::Kind;
+use crate::object::ObjectKind;
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,8 +16,26 @@ pub enum RayKind {
     Transmitted,
 }
 
-/// Is told what happens while a picture is traced. All methods are empty by default: with `()`
-/// as the observer nothing of it is left in the machine code.
+/// Receives the events of tracing. All methods are empty by default: with `()` as the observer
+/// nothing of it is left in the machine code.
+///
+/// ```
+/// use octray_core::observe::{Observer, RayKind};
+///
+/// /// Counts shadow rays.
+/// struct Shadows(u32);
+///
+/// impl Observer for Shadows {
+///     fn ray(&mut self, kind: RayKind) {
+///         self.0 += u32::from(kind == RayKind::Shadow);
+///     }
+/// }
+///
+/// let mut shadows = Shadows(0);
+/// shadows.ray(RayKind::Shadow);
+/// shadows.step(8);
+/// assert_eq!(shadows.0, 1);
+/// ```
 pub trait Observer {
     /// A ray starts.
     #[inline(always)]
@@ -28,28 +46,41 @@ pub trait Observer {
     /// A ray of the given kind, not a shadow ray, met something.
     #[inline(always)]
     fn hit(&mut self, _: RayKind) {}
-    /// A ray came to a node of the octree, leaf or not, and to the boxes of so many children.
+    /// A query visits a node of the accelerator and tests the boxes of its children.
     #[inline(always)]
     fn step(&mut self, _children: usize) {}
-    /// A ray was tested against an object of a kind, and met it or not.
+    /// A ray was tested against an object of this kind, and met it or not.
     #[inline(always)]
-    fn test(&mut self, _: Kind, _met: bool) {}
-    /// A test came to an outline, and to so many of its edges: the ray meets a polygon's plane in
-    /// the polygon's box, and nearer than the limit. Triangles do not tell.
+    fn test(&mut self, _: ObjectKind, _met: bool) {}
+    /// A test reached a polygon's outline and looked at this many of its edges: the ray meets the
+    /// polygon's plane within the polygon's box and the limit. Triangles do not report it.
     #[inline(always)]
     fn edges(&mut self, _: usize) {}
-    /// A test came to a cone's side: the ray meets the sphere around it.
+    /// A test reached a cone's side: the ray meets the cone's bounding sphere.
     #[inline(always)]
     fn side(&mut self) {}
-    /// This many rays wait on the stack.
+    /// This many rays wait to be traced.
     #[inline(always)]
-    fn pending(&mut self, _: usize) {}
+    fn queued(&mut self, _: usize) {}
+    /// A ray found no room in [`Workspace::rays`](crate::trace::Workspace::rays) and was not
+    /// traced: the picture lacks its light.
+    #[inline(always)]
+    fn dropped_ray(&mut self) {}
+    /// A node or leaf found no room on an accelerator's stack and was not visited: the picture may
+    /// lack objects.
+    #[inline(always)]
+    fn dropped_child(&mut self) {}
+    /// A shadow ray leads to a light for which the shadow cache has no place. The picture is the
+    /// same, only slower.
+    #[inline(always)]
+    fn uncached_light(&mut self) {}
 }
 
 impl Observer for () {}
 
-/// Counts everything.
+/// Counts all events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counters {
     /// Rays by [`RayKind`].
     pub rays: [u64; 4],
@@ -57,34 +88,64 @@ pub struct Counters {
     pub blocked: u64,
     /// Primary, reflected and transmitted rays that met something, by [`RayKind`].
     pub hits: [u64; 4],
-    /// The most rays that ever waited on the stack.
+    /// The most rays that ever waited.
     pub deepest: u64,
-    /// Steps and tests: of rays that look for the closest hit, and of shadow rays.
-    pub searches: [Searches; 2],
-    /// Which of the two is going on, 0 or 1.
-    pub search: usize,
+    /// What found no room.
+    pub dropped: Dropped,
+    /// Steps and tests: of queries for the closest hit, and of those along shadow rays.
+    pub queries: [QueryCounts; 2],
+    /// Which of the two is under way, 0 or 1.
+    pub query: usize,
 }
 
-/// What searches did.
+/// What found no room. All of it is 0 with a workspace that [`Tracer::workspace`] has approved.
+///
+/// [`Tracer::workspace`]: crate::trace::Tracer::workspace
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Searches {
-    /// Octree nodes visited.
+#[non_exhaustive]
+pub struct Dropped {
+    /// Reflected and transmitted rays that were not traced: the picture lacks their light.
+    pub rays: u64,
+    /// Nodes and leaves that were not visited: the picture may lack objects.
+    pub children: u64,
+    /// Shadow rays to lights beyond the shadow cache: the picture is the same, only slower.
+    pub uncached: u64,
+}
+
+impl Dropped {
+    /// Whether the picture lacks something.
+    pub const fn harms(&self) -> bool {
+        self.rays != 0 || self.children != 0
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.rays += other.rays;
+        self.children += other.children;
+        self.uncached += other.uncached;
+    }
+}
+
+/// What queries of an accelerator did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct QueryCounts {
+    /// Nodes of the accelerator visited.
     pub steps: u64,
     /// Their children.
     pub children: u64,
-    /// Object tests by [`Kind`].
+    /// Object tests by [`ObjectKind`].
     pub tests: [u64; 5],
     /// Those of them that met the object.
     pub met: [u64; 5],
-    /// Outlines of polygons, triangles left out, that tests came to.
+    /// Outlines of polygons, without triangles, that tests reached.
     pub outlines: u64,
     /// Those of their edges that were looked at.
     pub edges: u64,
-    /// Sides of cones that tests came to.
+    /// Sides of cones that tests reached.
     pub sides: u64,
 }
 
-impl Searches {
+impl QueryCounts {
     fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.children += other.children;
@@ -109,14 +170,14 @@ impl Counters {
         self.rays.iter().sum()
     }
 
-    /// Octree nodes visited.
+    /// Nodes of the accelerator visited.
     pub fn steps(&self) -> u64 {
-        self.searches.iter().map(|search| search.steps).sum()
+        self.queries.iter().map(|query| query.steps).sum()
     }
 
     /// Object tests.
     pub fn tests(&self) -> u64 {
-        self.searches.iter().flat_map(|search| search.tests).sum()
+        self.queries.iter().flat_map(|query| query.tests).sum()
     }
 
     /// Adds another count to this one.
@@ -129,7 +190,8 @@ impl Counters {
         }
         self.blocked += other.blocked;
         self.deepest = self.deepest.max(other.deepest);
-        for (mine, theirs) in self.searches.iter_mut().zip(&other.searches) {
+        self.dropped.add(&other.dropped);
+        for (mine, theirs) in self.queries.iter_mut().zip(&other.queries) {
             mine.add(theirs);
         }
     }
@@ -139,7 +201,7 @@ impl Observer for Counters {
     #[inline(always)]
     fn ray(&mut self, kind: RayKind) {
         self.rays[kind as usize] += 1;
-        self.search = usize::from(kind == RayKind::Shadow);
+        self.query = usize::from(kind == RayKind::Shadow);
     }
     #[inline(always)]
     fn blocked(&mut self) {
@@ -151,28 +213,40 @@ impl Observer for Counters {
     }
     #[inline(always)]
     fn step(&mut self, children: usize) {
-        let search = &mut self.searches[self.search & 1];
-        search.steps += 1;
-        search.children += children as u64;
+        let query = &mut self.queries[self.query & 1];
+        query.steps += 1;
+        query.children += children as u64;
     }
     #[inline(always)]
-    fn test(&mut self, kind: Kind, met: bool) {
-        let search = &mut self.searches[self.search & 1];
-        search.tests[kind as usize] += 1;
-        search.met[kind as usize] += u64::from(met);
+    fn test(&mut self, kind: ObjectKind, met: bool) {
+        let query = &mut self.queries[self.query & 1];
+        query.tests[kind as usize] += 1;
+        query.met[kind as usize] += u64::from(met);
     }
     #[inline(always)]
     fn edges(&mut self, count: usize) {
-        let search = &mut self.searches[self.search & 1];
-        search.outlines += 1;
-        search.edges += count as u64;
+        let query = &mut self.queries[self.query & 1];
+        query.outlines += 1;
+        query.edges += count as u64;
     }
     #[inline(always)]
     fn side(&mut self) {
-        self.searches[self.search & 1].sides += 1;
+        self.queries[self.query & 1].sides += 1;
     }
     #[inline(always)]
-    fn pending(&mut self, count: usize) {
+    fn queued(&mut self, count: usize) {
         self.deepest = self.deepest.max(count as u64);
+    }
+    #[inline(always)]
+    fn dropped_ray(&mut self) {
+        self.dropped.rays += 1;
+    }
+    #[inline(always)]
+    fn dropped_child(&mut self) {
+        self.dropped.children += 1;
+    }
+    #[inline(always)]
+    fn uncached_light(&mut self) {
+        self.dropped.uncached += 1;
     }
 }

@@ -23,14 +23,14 @@ impl<S: Scalar> Ray<S> {
 /// An axis-aligned box, closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
-pub struct Bounds<S> {
+pub struct Aabb<S> {
     /// Its least corner.
     pub low: Vec3<S>,
     /// Its greatest corner.
     pub high: Vec3<S>,
 }
 
-impl<S: Scalar> Bounds<S> {
+impl<S: Scalar> Aabb<S> {
     /// Whether a point lies in the box.
     #[inline(always)]
     pub fn contains(&self, p: Vec3<S>) -> bool {

@@ -1,33 +1,54 @@
-//! The numbers a picture is computed with: only the operations the tracer uses, and the laws that
-//! every implementation obeys.
+//! The numbers a picture is computed with: only the operations the tracer uses, in small traits, and
+//! the laws that every implementation obeys.
 //!
-//! Laws, on which the octree's proof of exactness (see [`crate::octree`]) and the absence of
+//! | trait | what it holds |
+//! | --- | --- |
+//! | [`Scalar`] | arithmetic: sums, products, roots, reciprocals, unit vectors |
+//! | [`Tolerance`] | how far results can be off, and margins for it |
+//! | [`Ratio`] | quotients of whole numbers, for places in a picture |
+//! | [`Intensity`] | light: sums of it, powers of cosines, 8-bit levels |
+//! | [`SaturationCounter`] | what fixed point does with a result that leaves its range |
+//!
+//! What the accelerators ask of a number is theirs: [`crate::accel::AccelScalar`]. Conversion from
+//! and to `f64` is apart, too: [`crate::quantize`].
+//!
+//! Laws, on which the accelerators' proof of exactness (see [`crate::accel`]) and the absence of
 //! panics rest:
 //!
 //! 1. No operation panics, whatever its operands.
 //! 2. `+`, `-` and `*` by a fixed factor are monotone: a larger operand never gives a smaller
 //!    result (within the format's range).
-//! 3. [`Scalar::quotient`] and [`Scalar::scaled`] saturate where the quotient leaves the range.
+//! 3. [`Scalar::quotient`] and [`Scalar::times_reciprocal`] saturate where the quotient leaves the
+//!    range.
 //! 4. The same operands give the same bits on every target.
 
 mod approx;
 mod fixed;
 mod float;
+mod intensity;
 pub(crate) mod multiply;
+mod operators;
+mod ratio;
 mod root;
+mod saturation;
+mod tolerance;
 mod whole;
 mod zeros;
 
 pub use approx::Approx;
 pub(crate) use fixed::reciprocal_q15;
-pub use fixed::{Fixed, Fixed64, Reciprocal, reset_saturations, saturations};
+pub use fixed::{Fixed, Fixed64, Reciprocal};
+pub use intensity::{Exponent, Intensity};
+pub use ratio::Ratio;
+pub use saturation::SaturationCounter;
+pub use tolerance::Tolerance;
+pub(crate) use whole::{whole_f32, whole_f64};
 pub(crate) use zeros::leading_zeros;
 
-use crate::octree::{Plane, Slope};
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// A number format with the operations of Whitted ray tracing.
+/// A number format with the arithmetic of ray tracing.
 pub trait Scalar:
     Copy
     + Default
@@ -48,9 +69,6 @@ pub trait Scalar:
     const ONE: Self;
     /// The largest finite value.
     const MAX: Self;
-    /// Whether roots and reciprocals, and with them the lengths of unit vectors, are exact but for
-    /// rounding.
-    const EXACT_ROOTS: bool;
 
     /// A product or a sum of products, twice as wide, that has not been rounded yet (floats: as
     /// wide as the number itself).
@@ -84,33 +102,24 @@ pub trait Scalar:
     fn reciprocal(self) -> Self::Reciprocal;
 
     /// `self` divided by the number whose reciprocal is given, saturating.
-    fn scaled(self, reciprocal: Self::Reciprocal) -> Self;
+    fn times_reciprocal(self, reciprocal: Self::Reciprocal) -> Self;
 
     /// `self / divisor`, saturating.
     #[inline(always)]
     fn quotient(self, divisor: Self) -> Self {
-        self.scaled(divisor.reciprocal())
+        self.times_reciprocal(divisor.reciprocal())
     }
 
-    /// Whether `numerator / divisor`, both ≥ 0, is certain to come out above `limit`: an answer
-    /// without the division. Never true where [`Scalar::quotient`] gives `limit` or less, or what
-    /// is found would depend on the order of the search.
-    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool;
+    /// Conservative test for `numerator / divisor > limit`, both operands ≥ 0, without dividing.
+    /// Never true where [`Scalar::quotient`] gives `limit` or less, or what is found would depend on
+    /// the order of the search.
+    fn quotient_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool;
 
-    /// The reciprocal of a whole number, 1 ≤ `n` < 2³¹, for [`Scalar::ratio`].
-    fn whole_reciprocal(n: u32) -> Self::Reciprocal;
-
-    /// `numerator / n` for |numerator| ≤ 8 n, given `n`'s [`Scalar::whole_reciprocal`].
-    fn ratio(numerator: i32, n: Self::Reciprocal) -> Self;
-
-    /// ⌊`self` · n⌋ for 0 ≤ `self` ≤ 1; monotone.
-    fn part(self, n: u32) -> u32;
+    /// ⌊`self` · n⌋ for 0 ≤ `self` ≤ 1: 0 to `n`, monotone.
+    fn scale_to_index(self, n: u32) -> u32;
 
     /// The unit vector along `v`, and the length of `v`. The null vector gives itself and 0.
     fn unit(v: [Self; 3]) -> ([Self; 3], Self);
-
-    /// `self` raised to `exponent`, for 0 ≤ `self` ≤ 1; 0⁰ is 1.
-    fn power(self, exponent: Exponent<Self>) -> Self;
 
     /// Brings a length into a shape's own scale, where its size is about 1: times 2^`exponent`
     /// in formats whose precision is absolute, unchanged where it is relative.
@@ -118,26 +127,6 @@ pub trait Scalar:
 
     /// The inverse of [`Scalar::to_local`], saturating.
     fn to_global(self, exponent: i8) -> Self;
-
-    /// A bound on how far a computed surface point, refined onto its shape, can lie from that
-    /// shape, with a margin for the next ray's own rounding. `position` is the largest coordinate
-    /// of the point, `reach` the size of a curved shape (0 for flat ones); both ≥ 0.
-    fn surface_error(position: Self, reach: Self) -> Self;
-
-    /// The grey level of an intensity: ⌊255 · clamp(self, 0, 1) + ½⌋.
-    fn level(self) -> u8;
-
-    /// A distance ≥ 0 with what rounding may have taken from it, where rounding is relative: which
-    /// of two planes is met first does not hang on a last bit then. In fixed point quotients are
-    /// rounded to absolute steps, and two that differ by less are equal already.
-    #[inline(always)]
-    fn or_little_more(self) -> Self {
-        self
-    }
-
-    /// The sum of a pixel's light so far and one more contribution. Fixed point stops at 1, where
-    /// the result is clamped anyway, so that any number of contributions ≥ 0 has room.
-    fn accumulate(self, light: Self) -> Self;
 
     /// The absolute value.
     #[inline(always)]
@@ -156,57 +145,4 @@ pub trait Scalar:
     fn max(self, other: Self) -> Self {
         if other > self { other } else { self }
     }
-
-    /// A coordinate or a length on the packed tree's grid: an integer, with `GRID_SLACK` at most
-    /// between what a ray's computed point rounds to and where the ray truly is. Coordinates of a
-    /// scene, and their differences, stay below 2³¹.
-    fn grid(self) -> i32;
-
-    /// See [`Scalar::grid`].
-    const GRID_SLACK: i32;
-
-    /// Whether hits always lie within [`Quantize::SLACK`] of the true surface. Where they do not,
-    /// a hit's point has to be looked for in its object's box, and an octree that links objects by
-    /// exact shape would miss hits that brute force finds.
-    const SOUND: bool;
-
-    /// A direction's component with 30 bits behind the point.
-    fn slope_q30(self) -> i32;
-
-    /// The number that the octree's planes and ray parameters are held in.
-    type Plane: Plane;
-
-    /// The same value as a plane coordinate, exactly.
-    fn plane(self) -> Self::Plane;
-
-    /// The nearest value to a plane coordinate.
-    fn from_plane(plane: Self::Plane) -> Self;
-
-    /// The reciprocal of a direction component as the octree's walk wants it.
-    fn slope(self) -> Slope<Self::Plane>;
-}
-
-/// An exponent ≥ 0, split so that the whole part is done by repeated squaring.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Exponent<S> {
-    /// ⌊exponent⌋.
-    pub whole: u32,
-    /// What is left, in [0, 1).
-    pub fraction: S,
-}
-
-/// The border between `f64` and a format. Only code that prepares a scene or looks at a result
-/// uses it; nothing in the tracer does.
-pub trait Quantize: Scalar {
-    /// The name that the command line uses.
-    const NAME: &'static str;
-    /// Bits behind the point, for fixed-point formats.
-    const FRACTION_BITS: Option<u32>;
-    /// How far a computed hit point, not refined, can lie from its shape, as a share of the
-    /// largest distance in the scene. Bounding boxes are this much larger than their shapes.
-    const SLACK: f64;
-    /// The nearest value; saturates, NaN gives 0.
-    fn from_f64(x: f64) -> Self;
-    /// The exact value (the 64-bit fixed format: rounded to nearest).
-    fn to_f64(self) -> f64;
 }

@@ -1,21 +1,56 @@
-//! A scene in the arithmetic it is rendered in: slices that somebody else owns, in memory or flash.
+//! A scene in the arithmetic it is rendered in: borrowed slices, in memory or flash.
 
-use crate::needs::{EVERYTHING, Needs};
-use crate::scalar::{Exponent, Scalar};
-use crate::shape::{Kind, ObjectRef, Shapes};
+use crate::features::{ALL_FEATURES, FeatureSet};
+use crate::object::{ObjectKind, ObjectRef};
+use crate::scalar::{Exponent, Scalar, Tolerance};
+use crate::shape::Shapes;
 use crate::vec3::Vec3;
 
-/// A scene, ready to be traced. Whoever fills it in proves that nothing overflows: the middle of
-/// all shapes, lights and viewpoints is at the origin, and their largest distance, `reach`, is at
-/// most ⅔ of [`Scalar::MAX`], so that every point a ray comes to within its reach has coordinates
-/// in range.
+/// A scene, ready to be traced.
 ///
-/// What a scene has none of is not in the machine code if `NEEDS` leaves it out.
+/// Fixed point is safe from overflow if the middle of all shapes, lights and viewpoints is at the
+/// origin, and their largest distance, [`Scene::diameter`], is at most ⅔ of [`Scalar::MAX`]: then every
+/// point within the diameter of a ray has coordinates in range. octray-scenes places and scales scene
+/// files so.
+///
+/// Lengths are in units of the scene, colours are linear and 1 at full intensity. What a scene has none of
+/// is not in the machine code if `FEATURES` leaves it out.
+///
+/// ```
+/// use octray_core::accel::{Accelerator, BruteForce};
+/// use octray_core::object::{ObjectKind, ObjectRef};
+/// use octray_core::ray::Ray;
+/// use octray_core::scene::{Attributes, Scene, Surface};
+/// use octray_core::shape::{Shapes, Sphere};
+/// use octray_core::vec3::{Vec3, vec3};
+///
+/// // A row of ten spheres along z, the first in the file the farthest.
+/// let spheres: Vec<_> = (0..10)
+///     .map(|i| Sphere { centre: vec3(0.0, 0.0, 3.0 * i as f32 - 15.0), radius: 1.0 })
+///     .collect();
+/// let attributes: Vec<_> = (0..10).map(|id| Attributes::new(id, 0)).collect();
+/// let surfaces = [Surface::default()];
+/// let scene: Scene<f32> = Scene::new(
+///     Shapes { spheres: &spheres, ..Shapes::empty(1e-5) },
+///     &attributes,
+///     &surfaces,
+///     &[],
+///     Vec3::ZERO,
+///     64.0,
+/// );
+///
+/// let objects: Vec<_> = scene.shapes.refs().collect();
+/// let ray = Ray { origin: vec3(0.0, 0.0, 20.0), direction: vec3(0.0, 0.0, -1.0) };
+/// let hit = BruteForce(&objects).nearest(&scene, &ray, &mut (), &mut ()).unwrap();
+/// assert_eq!(hit.object, ObjectRef::new(ObjectKind::Sphere, 9));
+/// assert_eq!(scene.attributes_of(hit.object).id, 9);
+/// assert_eq!(hit.t, 7.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
+pub struct Scene<'a, S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES> {
     /// The geometry.
-    pub shapes: Shapes<'a, S, NEEDS>,
-    /// Who and of what surface each object is, kind by kind in the order of [`Kind`].
+    pub shapes: Shapes<'a, S, FEATURES>,
+    /// The identity and the surface of each object, kind by kind in the order of [`ObjectKind`].
     pub attributes: &'a [Attributes],
     /// Where each kind begins in `attributes`.
     pub first: [u32; 5],
@@ -23,10 +58,10 @@ pub struct Scene<'a, S: Scalar, const NEEDS: Needs = EVERYTHING> {
     pub surfaces: &'a [Surface<S>],
     /// The lights.
     pub lights: &'a [Light<S>],
-    /// What a ray that hits nothing brings.
+    /// The light of a ray that hits nothing.
     pub background: Vec3<S>,
     /// No two points of shapes, lights and viewpoint are farther apart; no hit is looked for beyond.
-    pub reach: S,
+    pub diameter: S,
 }
 
 /// What is known of an object besides its geometry.
@@ -45,27 +80,37 @@ pub struct Attributes {
 impl Attributes {
     /// Not a patch.
     pub const FLAT: u32 = u32::MAX;
+
+    /// Those of an object that is no patch.
+    pub const fn new(id: u32, surface: u32) -> Self {
+        Self {
+            id,
+            surface,
+            patch: Self::FLAT,
+        }
+    }
 }
 
-/// How a surface answers to light.
+/// How a surface reflects light. All coefficients are linear, 0 to 1 as a rule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Surface<S> {
-    /// Shown without any light.
+    /// Light that it sends out without any lamp.
     pub ambient: Vec3<S>,
-    /// Diffuse coefficients.
+    /// Diffuse coefficients: times the light's colour and the cosine to its direction.
     pub diffuse: Vec3<S>,
-    /// Specular coefficients.
+    /// Specular coefficients: times the light's colour and a power of the cosine between mirror
+    /// direction and light.
     pub specular: Vec3<S>,
-    /// Exponent of the specular term.
+    /// That power's exponent, ≥ 0; the larger, the smaller the highlight.
     pub shine: Exponent<S>,
-    /// Share of the reflected ray.
+    /// Weight of the reflected ray, 0 to 1.
     pub reflect: S,
-    /// Share of the transmitted ray.
+    /// Weight of the transmitted ray, 0 to 1; the surface itself is seen with what is left.
     pub refract: S,
-    /// n1/n2 on the way in: 1/ior.
+    /// n1/n2 on the way in: 1 / index of refraction.
     pub entering: S,
-    /// n1/n2 on the way out: ior.
+    /// n1/n2 on the way out: the index of refraction.
     pub leaving: S,
 }
 
@@ -75,13 +120,45 @@ pub struct Surface<S> {
 pub struct Light<S> {
     /// Where it is.
     pub position: Vec3<S>,
-    /// How bright it is.
+    /// Its intensity, linear; it does not fall off with distance.
     pub colour: Vec3<S>,
-    /// The [`Scalar::surface_error`] of a flat surface at the light, which does not block it.
+    /// The [`Tolerance::surface_error`] of a flat surface at the light, which does not block it.
     pub clearance: S,
 }
 
-impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {
+impl<S: Tolerance> Light<S> {
+    /// A light of this intensity at a place.
+    pub fn new(position: Vec3<S>, colour: Vec3<S>) -> Self {
+        Self {
+            position,
+            colour,
+            clearance: S::surface_error(position.size(), S::ZERO),
+        }
+    }
+}
+
+impl<'a, S: Scalar, const FEATURES: FeatureSet> Scene<'a, S, FEATURES> {
+    /// A scene of these parts; see the fields. There is an element of `attributes` for each object, kind
+    /// by kind.
+    pub fn new(
+        shapes: Shapes<'a, S, FEATURES>,
+        attributes: &'a [Attributes],
+        surfaces: &'a [Surface<S>],
+        lights: &'a [Light<S>],
+        background: Vec3<S>,
+        diameter: S,
+    ) -> Self {
+        Self {
+            shapes,
+            attributes,
+            first: Self::first_of(&shapes),
+            surfaces,
+            lights,
+            background,
+            diameter,
+        }
+    }
+
     /// An object's attributes.
     #[inline(always)]
     pub fn attributes_of(&self, object: ObjectRef) -> Attributes {
@@ -94,10 +171,10 @@ impl<S: Scalar, const NEEDS: Needs> Scene<'_, S, NEEDS> {
     }
 
     /// Where each kind begins in the attributes of a scene with these shapes.
-    pub fn first_of(shapes: &Shapes<'_, S, NEEDS>) -> [u32; 5] {
+    pub fn first_of(shapes: &Shapes<'_, S, FEATURES>) -> [u32; 5] {
         let mut first = [0; 5];
         let mut sum = 0;
-        for kind in Kind::ALL {
+        for kind in ObjectKind::ALL {
             first[kind as usize] = sum;
             sum += shapes.count(kind) as u32;
         }

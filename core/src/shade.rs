@@ -1,31 +1,32 @@
-//! The light that a surface sends back by itself: ambient, diffuse and specular (thesis 3.2).
+//! The light of a surface itself: ambient, diffuse and specular (thesis 3.2).
 
-use crate::needs::{self, Needs};
+use crate::accel::Accelerator;
+use crate::features::{self, FeatureSet};
+use crate::object::ObjectRef;
 use crate::observe::{Observer, RayKind};
-use crate::octree::Accelerator;
 use crate::ray::Ray;
-use crate::scalar::{Exponent, Scalar};
+use crate::scalar::{Exponent, Intensity, Scalar, Tolerance};
 use crate::scene::{Scene, Surface};
-use crate::shape::{Contact, ObjectRef};
+use crate::shape::Contact;
 use crate::vec3::Vec3;
 
-/// A surface point as light sees it.
+/// What shading needs to know of a surface point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point<S> {
     pub(crate) contact: Contact<S>,
-    /// The shading normal, turned to face the incoming ray.
+    /// The shading normal, flipped to face the incoming ray.
     pub(crate) normal: Vec3<S>,
     /// Whether the surface's own normal faces the other way.
-    pub(crate) turned: bool,
+    pub(crate) flipped: bool,
     /// Whether the shading normal is not the surface's own.
     pub(crate) smooth: bool,
     /// The mirror direction; null where the surface has no use for it.
     pub(crate) mirror: Vec3<S>,
-    /// Whether it is a unit vector; what only shines needs that where a light is in sight.
+    /// Whether it is a unit vector. Where nothing is reflected, only visible lights need that.
     pub(crate) is_unit: bool,
-    /// How far off the surface new rays start; see [`Scalar::surface_error`].
+    /// How far off the surface new rays start; see [`Tolerance::surface_error`].
     pub(crate) error: S,
-    /// So far along the surface's own normal.
+    /// The same as a vector along the surface's own normal.
     pub(crate) offset: Vec3<S>,
 }
 
@@ -34,11 +35,11 @@ impl<S: Scalar> Point<S> {
     /// off the surface, on the side to which it leaves: there it cannot meet the surface it comes
     /// from.
     #[inline(always)]
-    pub(crate) fn ray<const NEEDS: Needs>(&self, direction: Vec3<S>, back: bool) -> Ray<S> {
-        let outward = if needs::needs(NEEDS, needs::PATCHES) && self.smooth {
+    pub(crate) fn ray<const FEATURES: FeatureSet>(&self, direction: Vec3<S>, back: bool) -> Ray<S> {
+        let outward = if features::contains(FEATURES, features::PATCHES) && self.smooth {
             self.contact.outward.dot(direction) >= S::ZERO
         } else {
-            back != self.turned
+            back != self.flipped
         };
         let point = self.contact.point;
         let origin = if outward {
@@ -51,7 +52,7 @@ impl<S: Scalar> Point<S> {
 
     /// The cosine between the mirror direction and a unit vector; `None` where it is not positive.
     #[inline(always)]
-    fn glance(&mut self, to_light: Vec3<S>) -> Option<S> {
+    fn reflection_cosine(&mut self, to_light: Vec3<S>) -> Option<S> {
         if !self.is_unit {
             if self.mirror.dot(to_light) <= S::ZERO {
                 return None;
@@ -63,25 +64,31 @@ impl<S: Scalar> Point<S> {
     }
 }
 
-/// The sum over all lights. `blockers` remembers for each light what blocked it last: most of the
-/// time the same object blocks it again, and one test finds that out.
+/// The sum over all lights. `shadow_cache` holds for each light what blocked it last: most of the
+/// time the same object blocks it again, and one test finds that out (Haines and Greenberg, "The
+/// Light Buffer: A Shadow-Testing Accelerator", 1986).
 #[inline(always)]
-pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEEDS: Needs>(
-    scene: &Scene<'_, S, NEEDS>,
+pub(crate) fn direct_light<
+    S: Tolerance + Intensity,
+    A: Accelerator<S, FEATURES>,
+    O: Observer,
+    const FEATURES: FeatureSet,
+>(
+    scene: &Scene<'_, S, FEATURES>,
     accelerator: &A,
     surface: &Surface<S>,
     mut point: Point<S>,
     stack: &mut A::Stack,
-    blockers: &mut [Option<ObjectRef>],
+    shadow_cache: &mut [Option<ObjectRef>],
     observer: &mut O,
 ) -> Vec3<S> {
     let mut sum = surface.ambient;
-    if !needs::needs(NEEDS, needs::SHADOWS) {
+    if !features::contains(FEATURES, features::SHADOWS) {
         return sum;
     }
     for (i, light) in scene.lights.iter().enumerate() {
         let to_light = light.position - point.contact.point;
-        // Most lights behind a surface are told without a root.
+        // Most lights behind a surface are found without a square root.
         if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
             continue;
         }
@@ -91,10 +98,10 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
             continue;
         }
         observer.ray(RayKind::Shadow);
-        let ray = point.ray::<NEEDS>(to_light, true);
+        let ray = point.ray::<FEATURES>(to_light, true);
         // A surface at the light itself does not block it.
         let limit = distance - light.clearance - point.error;
-        let last = blockers.get(i).copied().flatten();
+        let last = shadow_cache.get(i).copied().flatten();
         let still = last.filter(|&object| {
             let blocks = scene.shapes.blocks(object, &ray, limit, observer);
             observer.test(object.kind(), blocks);
@@ -103,14 +110,16 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
         let blocker = still.or_else(|| accelerator.any_hit(scene, &ray, limit, stack, observer));
         if blocker.is_some() {
             observer.blocked();
-            if let Some(place) = blockers.get_mut(i) {
+            if let Some(place) = shadow_cache.get_mut(i) {
                 *place = blocker;
+            } else {
+                observer.uncached_light();
             }
             continue;
         }
         let mut share = surface.diffuse * facing;
-        if needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO {
-            let exponent = if needs::needs(NEEDS, needs::FRACTIONS) {
+        if features::contains(FEATURES, features::SPECULAR) && surface.specular != Vec3::ZERO {
+            let exponent = if features::contains(FEATURES, features::FRACTIONS) {
                 surface.shine
             } else {
                 Exponent {
@@ -118,7 +127,7 @@ pub(crate) fn local<S: Scalar, A: Accelerator<S, NEEDS>, O: Observer, const NEED
                     ..surface.shine
                 }
             };
-            if let Some(glance) = point.glance(to_light) {
+            if let Some(glance) = point.reflection_cosine(to_light) {
                 share = share + surface.specular * glance.power(exponent);
             } else if exponent == Exponent::default() {
                 // 0⁰ is 1.

@@ -1,70 +1,99 @@
 //! Whitted's recursion, unrolled onto a bounded stack.
 
-use crate::needs::{self, EVERYTHING, Needs};
+mod workspace;
+
+pub use workspace::{QueuedRay, Workspace, WorkspaceTooSmall, required_rays};
+
+use crate::accel::{AccelScalar, Accelerator, Hit};
+use crate::features::{self, ALL_FEATURES, FeatureSet};
+use crate::object::ObjectRef;
 use crate::observe::{Observer, RayKind};
-use crate::octree::{Accelerator, Hit};
 use crate::ray::Ray;
-use crate::scalar::Scalar;
+use crate::scalar::{Intensity, Ratio, Scalar, Tolerance};
 use crate::scene::{Attributes, Scene, Surface};
 use crate::shade::{self, Point};
-use crate::shape::ObjectRef;
 use crate::vec3::Vec3;
 
-/// A ray that waits to be traced.
-#[derive(Clone, Copy, Debug)]
-pub struct Pending<S> {
-    ray: Ray<S>,
-    /// The share of its light that reaches the picture.
-    weight: S,
-    depth: u32,
-    kind: RayKind,
-}
+/// All that a rendering asks of a number format. Every type with the parts has it.
+pub trait TraceScalar: Scalar + Tolerance + Ratio + Intensity + AccelScalar {}
 
-impl<S: Scalar> Pending<S> {
-    /// Fills an unused place.
-    pub const EMPTY: Self = Self {
-        ray: Ray {
-            origin: Vec3::ZERO,
-            direction: Vec3::ZERO,
-        },
-        weight: S::ZERO,
-        depth: 0,
-        kind: RayKind::Primary,
-    };
-}
-
-/// The memory one thread traces with, lent and kept from ray to ray.
-#[derive(Debug)]
-pub struct Workspace<'a, S, K> {
-    /// Room for the rays that wait: one more than the deepest bounce.
-    pub rays: &'a mut [Pending<S>],
-    /// Room for the tree's walk, [`Accelerator::Stack`].
-    pub stack: &'a mut K,
-    /// What blocked each light last; may be shorter than the list of lights.
-    pub blockers: &'a mut [Option<ObjectRef>],
-}
-
-impl<S, K> Workspace<'_, S, K> {
-    /// Forgets what blocked the lights, so that what is counted does not depend on the past.
-    pub fn forget(&mut self) {
-        self.blockers.fill(None);
-    }
-}
+impl<S: Scalar + Tolerance + Ratio + Intensity + AccelScalar> TraceScalar for S {}
 
 /// What is traced, and how far.
+///
+/// ```
+/// use octray_core::accel::BruteForce;
+/// use octray_core::features;
+/// use octray_core::object::{ObjectKind, ObjectRef};
+/// use octray_core::ray::Ray;
+/// use octray_core::scene::{Attributes, Scene, Surface};
+/// use octray_core::shape::{Cuboid, Shapes};
+/// use octray_core::trace::{QueuedRay, Tracer, required_rays};
+/// use octray_core::vec3::vec3;
+///
+/// let cuboids = [Cuboid { low: vec3(-1.0, -1.0, -1.0), high: vec3(1.0, 1.0, 1.0) }];
+/// let surfaces = [Surface { ambient: vec3(0.25, 0.0, 0.0), reflect: 0.5, ..Surface::default() }];
+/// let attributes = [Attributes::new(0, 0)];
+/// let background = vec3(0.0, 0.0, 1.0);
+/// let scene: Scene<f64> = Scene::new(
+///     Shapes { cuboids: &cuboids, ..Shapes::empty(1e-14) },
+///     &attributes, &surfaces, &[], background, 32.0);
+/// let tracer = Tracer {
+///     scene: &scene,
+///     accelerator: &BruteForce(&[ObjectRef::new(ObjectKind::Cuboid, 0)]),
+///     max_depth: 8,
+///     cut_off: 1.0 / 512.0,
+/// };
+///
+/// const RAYS: usize = required_rays(8, features::ALL_FEATURES);
+/// let (mut rays, mut stack) = ([QueuedRay::EMPTY; RAYS], ());
+/// let mut workspace = tracer.workspace(&mut rays, &mut stack, &mut [])?;
+/// let ray = Ray { origin: vec3(0.0, 0.0, 8.0), direction: vec3(0.0, 0.0, -1.0) };
+/// let colour = tracer.radiance(ray, &mut workspace, &mut ());
+/// // The box itself, and half of the background in its mirror.
+/// assert_eq!(colour, vec3(0.25, 0.0, 0.5));
+/// # Ok::<(), octray_core::trace::WorkspaceTooSmall>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Tracer<'a, S: Scalar, A, const NEEDS: Needs = EVERYTHING> {
+pub struct Tracer<'a, S: Scalar, A, const FEATURES: FeatureSet = ALL_FEATURES> {
     /// The scene.
-    pub scene: &'a Scene<'a, S, NEEDS>,
+    pub scene: &'a Scene<'a, S, FEATURES>,
     /// What finds its objects.
     pub accelerator: &'a A,
-    /// The most bounces; what the workspace has no room for is not traced either.
+    /// The most bounces of a ray.
     pub max_depth: u32,
-    /// Rays of less weight are not traced.
+    /// Reflected and transmitted rays of less weight, 0 to 1, are not traced: 1/512 is half an
+    /// 8-bit level.
     pub cut_off: S,
 }
 
-impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, NEEDS> {
+impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
+    Tracer<'_, S, A, FEATURES>
+{
+    /// Memory to trace with.
+    ///
+    /// # Errors
+    /// If there is no room for [`required_rays`], or for each light in the shadow cache.
+    pub fn workspace<'w>(
+        &self,
+        rays: &'w mut [QueuedRay<S>],
+        stack: &'w mut A::Stack,
+        shadow_cache: &'w mut [Option<ObjectRef>],
+    ) -> Result<Workspace<'w, S, A::Stack>, WorkspaceTooSmall> {
+        let needed = WorkspaceTooSmall {
+            rays: required_rays(self.max_depth, FEATURES),
+            lights: self.scene.lights.len(),
+        };
+        if rays.len() < needed.rays || shadow_cache.len() < needed.lights {
+            return Err(needed);
+        }
+        Ok(Workspace {
+            rays,
+            stack,
+            shadow_cache,
+        })
+    }
+
     /// The light that comes along a ray of the camera, not clamped (fixed point: at most 1).
     pub fn radiance<O: Observer>(
         &self,
@@ -74,7 +103,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
     ) -> Vec3<S> {
         let mut sum = Vec3::ZERO;
         let mut waiting = 0;
-        let mut next = Pending {
+        let mut next = QueuedRay {
             ray,
             weight: S::ONE,
             depth: 0,
@@ -89,7 +118,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
                 None => self.scene.background,
                 Some(hit) => {
                     observer.hit(next.kind);
-                    self.meet(&next, hit, workspace, &mut waiting, observer)
+                    self.shade_hit(&next, hit, workspace, &mut waiting, observer)
                 }
             };
             // The weight of a camera's ray is 1.
@@ -126,9 +155,9 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
     /// The light of the surface itself, less what a transparent one lets through. The reflected
     /// and the transmitted ray are put on the stack.
     #[inline(always)]
-    fn meet<O: Observer>(
+    fn shade_hit<O: Observer>(
         &self,
-        from: &Pending<S>,
+        from: &QueuedRay<S>,
         hit: Hit<S>,
         workspace: &mut Workspace<'_, S, A::Stack>,
         waiting: &mut usize,
@@ -142,7 +171,7 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
             return Vec3::ZERO;
         };
         let mut normal = contact.outward;
-        if needs::needs(NEEDS, needs::PATCHES)
+        if features::contains(FEATURES, features::PATCHES)
             && attributes.patch != Attributes::FLAT
             && let Some(n) = scene
                 .shapes
@@ -150,39 +179,42 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
         {
             normal = n;
         }
-        let mut against = normal.dot(incoming);
-        let turned = against > S::ZERO;
-        if turned {
-            (normal, against) = (-normal, -against);
+        let mut n_dot_i = normal.dot(incoming);
+        let flipped = n_dot_i > S::ZERO;
+        if flipped {
+            (normal, n_dot_i) = (-normal, -n_dot_i);
         }
-        let reflects = needs::needs(NEEDS, needs::REFLECTION) && surface.reflect > S::ZERO;
-        let shines = needs::needs(NEEDS, needs::SPECULAR) && surface.specular != Vec3::ZERO;
-        let refracts = needs::needs(NEEDS, needs::REFRACTION) && surface.refract > S::ZERO;
+        let reflects =
+            features::contains(FEATURES, features::REFLECTION) && surface.reflect > S::ZERO;
+        let shines =
+            features::contains(FEATURES, features::SPECULAR) && surface.specular != Vec3::ZERO;
+        let refracts =
+            features::contains(FEATURES, features::REFRACTION) && surface.refract > S::ZERO;
         let mut mirror = Vec3::ZERO;
         if reflects || shines {
-            mirror = incoming - normal * (against + against);
+            mirror = incoming - normal * (n_dot_i + n_dot_i);
         }
         if reflects {
             mirror = mirror.unit().0;
         }
-        let error = S::surface_error(contact.point.size(), contact.reach);
+        let error = S::surface_error(contact.point.size(), contact.curvature_extent);
         let point = Point {
             contact,
             normal,
-            turned,
+            flipped,
             smooth: attributes.patch != Attributes::FLAT,
             mirror,
             is_unit: reflects,
             error,
             offset: contact.outward * error,
         };
-        let light = shade::local(
+        let light = shade::direct_light(
             scene,
             self.accelerator,
             surface,
             point,
             workspace.stack,
-            workspace.blockers,
+            workspace.shadow_cache,
             observer,
         );
         let mut follow = |share: S, direction: Option<Vec3<S>>, kind: RayKind| {
@@ -193,20 +225,26 @@ impl<S: Scalar, A: Accelerator<S, NEEDS>, const NEEDS: Needs> Tracer<'_, S, A, N
             if weight < self.cut_off {
                 return;
             }
-            if let (Some(direction), Some(place)) = (direction, workspace.rays.get_mut(*waiting)) {
-                *place = Pending {
-                    ray: point.ray::<NEEDS>(direction, kind == RayKind::Reflected),
-                    weight,
-                    depth: from.depth + 1,
-                    kind,
-                };
-                *waiting += 1;
-                observer.pending(*waiting);
+            match (direction, workspace.rays.get_mut(*waiting)) {
+                (Some(direction), Some(place)) => {
+                    *place = QueuedRay {
+                        ray: point.ray::<FEATURES>(direction, kind == RayKind::Reflected),
+                        weight,
+                        depth: from.depth + 1,
+                        kind,
+                    };
+                    *waiting += 1;
+                    observer.queued(*waiting);
+                }
+                (Some(_), None) => {
+                    observer.dropped_ray();
+                }
+                (None, _) => {}
             }
         };
         if refracts {
             let leaves = contact.closed && contact.outward.dot(incoming) > S::ZERO;
-            let through = refract(surface, incoming, normal, -against, leaves);
+            let through = refract(surface, incoming, normal, -n_dot_i, leaves);
             follow(surface.refract, through, RayKind::Transmitted);
         }
         if reflects {

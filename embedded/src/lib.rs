@@ -18,3 +18,8 @@ pub mod render;
 pub mod tally;
 
 pub use render::render;
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

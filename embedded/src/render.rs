@@ -5,12 +5,11 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Point, Size};
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
-use octray_core::needs::Needs;
+use octray_core::accel::Accelerator;
+use octray_core::features::FeatureSet;
+use octray_core::frame::Frame;
 use octray_core::observe::Observer;
-use octray_core::octree::Accelerator;
-use octray_core::packet::Frame;
-use octray_core::scalar::Scalar;
-use octray_core::trace::{Tracer, Workspace};
+use octray_core::trace::{TraceScalar, Tracer, Workspace};
 
 /// Red, green and blue in 8 bits.
 pub type Level = [u8; 3];
@@ -24,21 +23,21 @@ pub const ROWS: u32 = 4;
 ///
 /// # Errors
 /// What the display says.
-pub fn render<S, A, O, D, const NEEDS: Needs>(
+pub fn render<S, A, O, D, const FEATURES: FeatureSet>(
     target: &mut D,
     frame: &Frame<S>,
-    tracer: &Tracer<'_, S, A, NEEDS>,
+    tracer: &Tracer<'_, S, A, FEATURES>,
     workspace: &mut Workspace<'_, S, A::Stack>,
     strip: &mut [Level],
     observer: &mut O,
 ) -> Result<(), D::Error>
 where
-    S: Scalar,
-    A: Accelerator<S, NEEDS>,
+    S: TraceScalar,
+    A: Accelerator<S, FEATURES>,
     O: Observer,
     D: DrawTarget<Color: From<Rgb888>>,
 {
-    let (width, height) = (frame.parts().width, frame.parts().height);
+    let (width, height) = (frame.params().width, frame.params().height);
     let background = tracer.scene.background;
     let background = [background.x, background.y, background.z].map(S::level);
     let strips = Strips {

@@ -1,7 +1,7 @@
 //! Counts of steps and tests in 32 bits, for cores on which 64 cost more.
 
+use octray_core::object::ObjectKind;
 use octray_core::observe::Observer;
-use octray_core::shape::Kind;
 
 /// Counts; they wrap at 2³².
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,7 +18,7 @@ impl Observer for Tally {
         self.steps = self.steps.wrapping_add(1);
     }
     #[inline(always)]
-    fn test(&mut self, _: Kind, _met: bool) {
+    fn test(&mut self, _: ObjectKind, _met: bool) {
         self.tests = self.tests.wrapping_add(1);
     }
 }

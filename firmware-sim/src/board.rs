@@ -6,10 +6,11 @@ mod cortex_m;
 mod marks;
 #[cfg(target_arch = "riscv32")]
 mod riscv;
+mod room;
 mod stack;
 mod tell;
 
-use crate::baked::{CUT_OFF, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, NEEDS, RAYS, S, SCENE, WIDTH};
+use crate::baked::{CUT_OFF, FEATURES, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, RAYS, S, SCENE, WIDTH};
 use core::convert::Infallible;
 use embedded_graphics_core::Pixel;
 use embedded_graphics_core::draw_target::DrawTarget;
@@ -17,8 +18,8 @@ use embedded_graphics_core::geometry::{OriginDimensions, Size};
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
 use marks::{octray_pause, octray_resume};
-use octray_core::octree::Accelerator;
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::accel::Accelerator;
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_embedded::hash::HashPanel;
 use octray_embedded::render::{ROWS, render};
 use semihosting::process::exit;
@@ -35,8 +36,16 @@ fn run() -> ! {
     tell::text("\nhash ");
     tell::hexadecimal(hash);
     tell::number("stack", deepest.unwrap_or(0));
+    let dropped = room::dropped();
+    if dropped > 0 {
+        tell::number("dropped", dropped);
+    }
     tell::text("\n");
-    exit(if deepest.is_some() { 0 } else { 103 })
+    exit(match deepest {
+        Some(_) if dropped > 0 => 104,
+        Some(_) => 0,
+        None => 103,
+    })
 }
 
 /// Renders the picture with the tree that was baked; its hash.
@@ -49,36 +58,45 @@ fn frame() -> u64 {
 #[cfg(octray_device_tree)]
 fn frame() -> u64 {
     use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
-    use octray_core::{octree::Packed, ray::Bounds, shape::ObjectRef};
+    use octray_core::accel::CompactBvh8;
+    use octray_core::object::ObjectRef;
+    use octray_core::ray::Aabb;
 
     let mut words = [0; TREE_WORDS];
     let mut links = [ObjectRef::default(); OBJECTS];
     // A call of its own, so that its boxes are gone when the picture is rendered.
     #[inline(never)]
-    fn build<'a>(words: &'a mut [u32], links: &'a mut [ObjectRef]) -> Option<Packed<'a>> {
-        let mut boxes = [Bounds::default(); OBJECTS];
-        Packed::build(&SCENE.shapes, SCENE.reach, words, links, &mut boxes, GROWTH)
-            .ok()
-            .map(|(tree, _)| tree)
+    fn build<'a>(words: &'a mut [u32], links: &'a mut [ObjectRef]) -> Option<CompactBvh8<'a>> {
+        let mut boxes = [Aabb::default(); OBJECTS];
+        CompactBvh8::build(
+            &SCENE.shapes,
+            SCENE.diameter,
+            words,
+            links,
+            &mut boxes,
+            GROWTH,
+        )
+        .ok()
+        .map(|(tree, _)| tree)
     }
     build(&mut words, &mut links).map_or(0, |tree| trace(&tree))
 }
 
 /// Renders the picture; its hash.
 #[inline(never)]
-fn trace<A: Accelerator<S, NEEDS>>(tree: &A) -> u64 {
+fn trace<A: Accelerator<S, FEATURES>>(tree: &A) -> u64 {
     let tracer = Tracer {
         scene: &SCENE,
         accelerator: tree,
         max_depth: MAX_DEPTH,
         cut_off: CUT_OFF,
     };
-    let mut rays = [Pending::EMPTY; RAYS];
-    let mut blockers = [None; LIGHTS];
+    let mut rays = [QueuedRay::EMPTY; RAYS];
+    let mut shadow_cache = [None; LIGHTS];
     let mut workspace = Workspace {
         rays: &mut rays,
         stack: &mut A::Stack::default(),
-        blockers: &mut blockers,
+        shadow_cache: &mut shadow_cache,
     };
     let mut strip = [[0; 3]; WIDTH as usize * ROWS as usize];
     let mut panel = Panel(HashPanel::new(WIDTH, HEIGHT));
@@ -89,7 +107,7 @@ fn trace<A: Accelerator<S, NEEDS>>(tree: &A) -> u64 {
         &tracer,
         &mut workspace,
         &mut strip,
-        &mut (),
+        &mut room::Observed,
     );
     octray_pause();
     panel.0.hash()

@@ -1,6 +1,6 @@
 //! On a board without operating system: renders the scene that the build script has baked, and reports the picture's
 //! hash, what was counted and the deepest stack by semihosting. Exit code 0 if all went well, 101 after a panic, 102
-//! after a fault, 103 if the stack ran out.
+//! after a fault, 103 if the stack ran out, 104 if rays found no room.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]

@@ -1,7 +1,7 @@
 //! `octray check`: what is in a scene, or what is wrong with it.
 
+use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
-use octray_render::facts::Facts;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
         interrupt.check()?;
         match octray_scenes::read(path).map_err(Error::from) {
             Ok(scene) => output::write_stdout(interrupt, |out| {
-                let (name, facts) = (path.display(), Facts::of(&scene));
+                let (name, facts) = (path.display(), SceneCounts::of(&scene));
                 writeln!(
                     out,
                     "{name}: {facts}, {} x {} pixels",

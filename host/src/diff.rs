@@ -1,7 +1,7 @@
 //! `octray diff`: how far apart two pictures are, and whether that is within bounds.
 
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 use octray_render::heat;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;

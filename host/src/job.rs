@@ -2,7 +2,7 @@
 
 use octray_prepare::RenderSettings;
 use octray_render::picture::{RasDepth, Target};
-use octray_render::work::WorkOptions;
+use octray_render::schedule::Schedule;
 use std::path::PathBuf;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
@@ -18,7 +18,7 @@ pub struct RenderJob {
     /// What to render.
     pub settings: RenderSettings,
     /// How the work is shared.
-    pub work: WorkOptions,
+    pub work: Schedule,
     /// Whether the ranks of an MPI job share the work, each on one thread.
     pub mpi: bool,
     /// What to report on standard output.

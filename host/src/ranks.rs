@@ -1,9 +1,9 @@
-//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals packets, traces some
+//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals tiles, traces some
 //! itself and writes the picture; the others need no files.
 //!
-//! The scene is broadcast once, parsed. A rank has two packets in hand, so it need not wait for the next one while
+//! The scene is broadcast once, parsed. A rank has two tiles in hand, so it need not wait for the next one while
 //! its answer is on the way, and puts its results into a buffer, so it need not wait until they are taken. Every rank
-//! traces on one thread, and the first answers the others between its own packets. If a rank dies, `mpirun` says so
+//! traces on one thread, and the first answers the others between its own tiles. If a rank dies, `mpirun` says so
 //! and ends the others; the picture is written only when all of it is there.
 
 mod lead;
@@ -15,32 +15,32 @@ use lead::Leader;
 use mpi::point_to_point::{Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Root, Source};
-use octray_core::observe::{Counters, Searches};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
+use octray_core::observe::{Counters, QueryCounts};
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packet::{Intensity, Level};
-use octray_render::packets::Shape;
+use octray_render::tile::TileSize;
+use octray_render::tile::{Intensity, Level};
 use octray_scenes::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::thread;
 use std::time::Duration;
 
-/// What a rank asks for at first: a packet.
+/// What a rank asks for at first: a tile.
 const REQUEST: i32 = 1;
-/// A packet that was traced: its number and its pixels. It asks for another one.
+/// A tile that was traced: its number and its pixels. It asks for another one.
 const RESULT: i32 = 2;
-/// What a rank counted, when it has no more packets.
+/// What a rank counted, when it has no more tiles.
 const TALLY: i32 = 3;
-/// The number of a packet to be traced, or [`NONE`].
+/// The number of a tile to be traced, or [`NONE`].
 const PACKET: i32 = 4;
 
-/// No packet is left.
+/// No tile is left.
 const NONE: u32 = u32::MAX;
 
-/// Packets that a rank has in hand.
+/// Tiles that a rank has in hand.
 const IN_HAND: usize = 2;
 
 /// Bytes that a message in a buffer takes beside its own: at least MPI_BSEND_OVERHEAD of the MPI libraries there are,
@@ -55,7 +55,7 @@ const PAUSE: Duration = Duration::from_micros(20);
 struct Plan<'a> {
     scene: Cow<'a, Scene>,
     settings: RenderSettings,
-    shape: Shape,
+    shape: TileSize,
     /// Whether intensities are wanted beside levels.
     intensities: bool,
 }
@@ -66,22 +66,24 @@ struct Tally {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
-    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::Searches`].
+    /// Steps, children, outlines, edges, sides, tests and hits of [`octray_core::observe::QueryCounts`].
     searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
-    saturations: u32,
+    saturations: u64,
+    /// Rays and nodes that found no room, shadow rays to lights beyond the shadow cache.
+    dropped: [u64; 3],
     /// Seconds in which it traced.
     busy: f64,
 }
 
 impl Tally {
-    fn new(counters: &Counters, saturations: u32, busy: Duration) -> Self {
+    fn new(counters: &Counters, saturations: u64, busy: Duration) -> Self {
         Self {
             rays: counters.rays,
             hits: counters.hits,
             blocked: counters.blocked,
-            searches: counters.searches.map(|search| {
-                let Searches {
+            searches: counters.queries.map(|search| {
+                let QueryCounts {
                     steps,
                     children,
                     outlines,
@@ -89,35 +91,38 @@ impl Tally {
                     sides,
                     tests,
                     met,
+                    ..
                 } = search;
                 ([steps, children, outlines, edges, sides], tests, met)
             }),
             deepest: counters.deepest,
             saturations,
+            dropped: {
+                let dropped = counters.dropped;
+                [dropped.rays, dropped.children, dropped.uncached]
+            },
             busy: busy.as_secs_f64(),
         }
     }
 
     fn counters(&self) -> Counters {
-        Counters {
-            rays: self.rays,
-            blocked: self.blocked,
-            hits: self.hits,
-            searches: (self.searches).map(|(counts, tests, met)| {
-                let [steps, children, outlines, edges, sides] = counts;
-                Searches {
-                    steps,
-                    children,
-                    tests,
-                    met,
-                    outlines,
-                    edges,
-                    sides,
-                }
-            }),
-            deepest: self.deepest,
-            search: 0,
+        let mut all = Counters::default();
+        all.rays = self.rays;
+        all.blocked = self.blocked;
+        all.hits = self.hits;
+        all.deepest = self.deepest;
+        [all.dropped.rays, all.dropped.children, all.dropped.uncached] = self.dropped;
+        for (query, (counts, tests, met)) in all.queries.iter_mut().zip(self.searches) {
+            [
+                query.steps,
+                query.children,
+                query.outlines,
+                query.edges,
+                query.sides,
+            ] = counts;
+            (query.tests, query.met) = (tests, met);
         }
+        all
     }
 }
 

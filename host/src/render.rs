@@ -1,31 +1,31 @@
 //! `octray render`: read a scene, have it traced, write the picture, tell the cost.
 
 use crate::job::{RenderJob, StatsFormat};
-use crate::stats::{Seconds, Stats};
+use crate::stats::{Dropped, Seconds, Stats};
 use crate::summary::Summary;
 use octray_core::observe::RayKind;
+use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
-use octray_render::facts::Facts;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
+use octray_render::render::{self, Rendering};
 use octray_render::stats::Rays;
-use octray_render::trace::{self, Traced};
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
 /// Traces what a job asks for, on threads.
 ///
 /// # Errors
-/// As [`trace::trace`].
+/// As [`render::render_with`].
 pub fn trace(
     scene: &Scene,
     job: &RenderJob,
     progress: &dyn Progress,
     interrupt: &Interrupt,
-) -> Result<Traced, Error> {
+) -> Result<Rendering, Error> {
     let intensities = job.output.holds_intensities();
-    trace::trace(
+    render::render_with(
         scene,
         &job.settings,
         &job.work,
@@ -43,7 +43,7 @@ pub fn trace(
 pub fn run(
     job: &RenderJob,
     interrupt: &Interrupt,
-    trace: impl FnOnce(&Scene, &RenderJob, &dyn Progress, &Interrupt) -> Result<Traced, Error>,
+    trace: impl FnOnce(&Scene, &RenderJob, &dyn Progress, &Interrupt) -> Result<Rendering, Error>,
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
@@ -67,10 +67,10 @@ pub fn run(
     })
 }
 
-fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> Stats {
+fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) -> Stats {
     Stats {
         scene: job.scene.display().to_string(),
-        facts: Facts::of(scene),
+        facts: SceneCounts::of(scene),
         picture: job.output.path.display().to_string(),
         arith: job.settings.arith,
         format: traced.format,
@@ -82,7 +82,8 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         tests: traced.counters.tests(),
         hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,
-        octree: traced.octree,
+        dropped: Dropped::of(&traced.counters),
+        tree: traced.tree,
         seconds: Seconds {
             parse: parse.as_secs_f64(),
             build: traced.build.as_secs_f64(),
@@ -98,12 +99,12 @@ mod tests {
     use super::*;
     use octray_core::observe::Counters;
     use octray_prepare::{Format, RenderSettings, TreeKind, TreeSettings};
-    use octray_render::deal::Policy;
-    use octray_render::engine::Octree;
     use octray_render::picture::Picture;
     use octray_render::picture::{self, RasDepth, Target};
+    use octray_render::renderer::TreeStats;
+    use octray_render::schedule::Schedule;
+    use octray_render::scheduler::Policy;
     use octray_render::stats::Work;
-    use octray_render::work::WorkOptions;
     use std::fs;
     use std::path::Path;
 
@@ -119,7 +120,7 @@ mod tests {
                 cut_off: 0.0,
                 ..RenderSettings::DEFAULT
             },
-            work: WorkOptions::default(),
+            work: Schedule::default(),
             mpi: false,
             stats: StatsFormat::None,
         }
@@ -128,17 +129,17 @@ mod tests {
     const SCENE: &str = "v 0 0 -9 resolution 2 3 f 1 1 1 0 0 0 0 0 0 0 0 0 s 0 0 5 1";
 
     /// A tracer that sees red everywhere.
-    fn red(scene: &Scene) -> Result<Traced, Error> {
+    fn red(scene: &Scene) -> Result<Rendering, Error> {
         let pixels = (scene.width * scene.height) as usize;
         let levels = vec![[255, 0, 0]; pixels];
-        Ok(Traced {
+        Ok(Rendering {
             picture: Picture::from_levels(scene.width, scene.height, levels).unwrap(),
             format: Format::F32,
             scale: 0,
             too_fine: None,
             counters: Counters::default(),
             saturations: 0,
-            octree: Octree {
+            tree: TreeStats {
                 kind: TreeKind::None,
                 nodes: 0,
                 links: 0,
@@ -150,8 +151,8 @@ mod tests {
             work: Work {
                 threads: 1,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::TILE,
-                packets: 1,
+                tile: Schedule::TILE,
+                tiles: 1,
                 messages: None,
                 idle: vec![0.0],
             },

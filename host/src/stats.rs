@@ -1,8 +1,9 @@
 //! What a rendering cost: the object that `--stats json` prints.
 
+use octray_core::observe::Counters;
 use octray_prepare::format::{Arith, Format};
-use octray_render::engine::Octree;
-use octray_render::facts::Facts;
+use octray_render::counts::SceneCounts;
+use octray_render::renderer::TreeStats;
 use octray_render::stats::{Rays, Work};
 use serde::{Serialize, Serializer};
 
@@ -14,7 +15,7 @@ pub struct Stats {
     pub scene: String,
     /// What is in it.
     #[serde(skip)]
-    pub facts: Facts,
+    pub facts: SceneCounts,
     /// The picture file as it was named.
     #[serde(skip)]
     pub picture: String,
@@ -40,8 +41,10 @@ pub struct Stats {
     pub hits: u64,
     /// Fixed-point results that had to be clamped to the format's range.
     pub saturations: u64,
-    /// The octree.
-    pub octree: Octree,
+    /// What found no room.
+    pub dropped: Dropped,
+    /// The tree.
+    pub tree: TreeStats,
     /// Time per stage.
     pub seconds: Seconds,
     /// How it was done.
@@ -52,12 +55,34 @@ pub struct Stats {
     pub hash: u64,
 }
 
+/// What found no room: all 0 unless something is wrong with octray, as it makes room for all that a scene can need.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Dropped {
+    /// Reflected and transmitted rays that were not traced.
+    pub rays: u64,
+    /// Nodes of the tree that were not visited.
+    pub nodes: u64,
+    /// Shadow rays to lights beyond the shadow cache; the picture is the same, only slower.
+    pub uncached: u64,
+}
+
+impl Dropped {
+    /// Those that were counted.
+    pub fn of(counters: &Counters) -> Self {
+        Self {
+            rays: counters.dropped.rays,
+            nodes: counters.dropped.children,
+            uncached: counters.dropped.uncached,
+        }
+    }
+}
+
 /// Wall-clock time per stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
     /// Reading the scene.
     pub parse: f64,
-    /// Converting it and building the octree.
+    /// Converting it and building the stats.
     pub build: f64,
     /// Tracing.
     pub render: f64,
@@ -71,19 +96,19 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 pub(crate) mod tests {
     use super::*;
     use octray_prepare::TreeKind;
-    use octray_render::deal::Policy;
-    use octray_render::work::WorkOptions;
+    use octray_render::schedule::Schedule;
+    use octray_render::scheduler::Policy;
 
     /// Statistics in which every number is another.
     pub(crate) fn example() -> Stats {
         Stats {
             scene: "scenes/figure-19.scene".into(),
-            facts: Facts {
+            facts: SceneCounts {
                 spheres: 62,
                 polygons: 1,
                 surfaces: 3,
                 lights: 2,
-                ..Facts::default()
+                ..SceneCounts::default()
             },
             picture: "figure-19.png".into(),
             arith: Arith::Auto,
@@ -102,7 +127,12 @@ pub(crate) mod tests {
             tests: 765_432,
             hits: 180_000,
             saturations: 5,
-            octree: Octree {
+            dropped: Dropped {
+                rays: 2,
+                nodes: 3,
+                uncached: 4,
+            },
+            tree: TreeStats {
                 kind: TreeKind::Bvh8,
                 nodes: 11,
                 links: 63,
@@ -117,8 +147,8 @@ pub(crate) mod tests {
             work: Work {
                 threads: 2,
                 schedule: Policy::Dynamic,
-                packet: WorkOptions::TILE,
-                packets: 64,
+                tile: Schedule::TILE,
+                tiles: 64,
                 messages: None,
                 idle: vec![0.0005, 0.0],
             },
@@ -132,10 +162,10 @@ pub(crate) mod tests {
         let expected = concat!(
             r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
             r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
-            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"#,
-            r#""octree":{"kind":"bvh8","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
+            r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"dropped":{"rays":2,"nodes":3,"uncached":4},"#,
+            r#""tree":{"kind":"bvh8","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
-            r#""threads":2,"schedule":"dynamic","packet":{"rows":16,"columns":16},"packets":64,"#,
+            r#""threads":2,"schedule":"dynamic","tile":{"rows":16,"columns":16},"tiles":64,"#,
             r#""messages":null,"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );

@@ -1,7 +1,7 @@
 //! The statistics of a rendering as a summary to read.
 
 use crate::stats::Stats;
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 use octray_render::stats::Messages;
 use std::fmt;
 
@@ -23,7 +23,7 @@ impl fmt::Display for Summary<'_> {
         if let Some(too_fine) = &stats.too_fine {
             line(f, "too coarse", too_fine)?;
         }
-        line(f, "octree", &tree(stats))?;
+        line(f, "tree", &tree(stats))?;
         count(f, "rays", rays.total(), "")?;
         count(f, "  primary", rays.primary, "")?;
         let blocked = format!("  {} of them blocked", thousands(rays.blocked));
@@ -32,7 +32,7 @@ impl fmt::Display for Summary<'_> {
         count(f, "  transmitted", rays.transmitted, "")?;
         count(
             f,
-            "voxel steps",
+            "node visits",
             stats.steps,
             &per_ray(stats.steps, rays.total()),
         )?;
@@ -45,6 +45,27 @@ impl fmt::Display for Summary<'_> {
         count(f, "hits", stats.hits, "  of the primary rays")?;
         if stats.saturations > 0 {
             count(f, "saturations", stats.saturations, "")?;
+        }
+        let dropped = &stats.dropped;
+        let room = [
+            (
+                "dropped rays",
+                dropped.rays,
+                "  for want of room: the picture lacks their light",
+            ),
+            (
+                "dropped nodes",
+                dropped.nodes,
+                "  for want of room: the picture may lack objects",
+            ),
+            (
+                "uncached",
+                dropped.uncached,
+                "  shadow rays to lights beyond the shadow cache: slower",
+            ),
+        ];
+        for (name, number, what) in room.into_iter().filter(|(_, number, _)| *number > 0) {
+            count(f, name, number, what)?;
         }
         let stages = [
             ("parse", seconds.parse),
@@ -80,8 +101,8 @@ fn arithmetic(stats: &Stats) -> String {
 }
 
 fn tree(stats: &Stats) -> String {
-    let octree = &stats.octree;
-    let unsplit = match octree.unsplit {
+    let tree = &stats.tree;
+    let unsplit = match tree.unsplit {
         0 => String::new(),
         leaves => format!(
             ", arena full: {} leaves larger than asked for",
@@ -90,10 +111,10 @@ fn tree(stats: &Stats) -> String {
     };
     format!(
         "{}: {} nodes, {} links, depth {}{unsplit}",
-        octree.kind.name(),
-        thousands(octree.nodes),
-        thousands(octree.links),
-        octree.depth
+        tree.kind.name(),
+        thousands(tree.nodes),
+        thousands(tree.links),
+        tree.depth
     )
 }
 
@@ -116,12 +137,12 @@ fn work(stats: &Stats) -> String {
     let plural = |count| if count == 1 { "" } else { "s" };
     let one = work.messages.map_or("thread", |_| "rank");
     format!(
-        "{speed}{} {one}{}, {} packet{} of {}, {} schedule",
+        "{speed}{} {one}{}, {} tile{} of {}, {} schedule",
         work.threads,
         plural(work.threads),
-        thousands(work.packets as u64),
-        plural(work.packets),
-        work.packet,
+        thousands(work.tiles as u64),
+        plural(work.tiles),
+        work.tile,
         work.schedule.name()
     )
 }
@@ -135,7 +156,7 @@ fn messages(sent: &Messages) -> String {
         hand_out,
     } = *sent;
     format!(
-        "{} packets in {} bytes came back from other ranks, {} or {} instructions each for the first one",
+        "{} tiles in {} bytes came back from other ranks, {} or {} instructions each for the first one",
         thousands(count),
         thousands(bytes),
         duration(seconds / count.max(1) as f64),
@@ -182,18 +203,18 @@ mod tests {
 scene         scenes/figure-19.scene: 62 spheres, 1 polygon, 3 surfaces, 2 lights
 picture       figure-19.png: 512 x 256 pixels, hash 00123456789abcde
 arithmetic    auto: i12f20, scene scaled by 2^-3
-octree        tight: 11 nodes, 63 links, depth 4
+tree          bvh8: 11 nodes, 63 links, depth 4
 rays                  381,073
   primary             131,072
   shadow              200,000  34,567 of them blocked
   reflected            50,001
   transmitted               0
-voxel steps         1,234,567  3.24 per ray
+node visits         1,234,567  3.24 per ray
 object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
-work          1,524,292 rays/s, 2 threads, 64 packets of 16 x 16 pixels, dynamic schedule
+work          1,524,292 rays/s, 2 threads, 64 tiles of 16 x 16 pixels, dynamic schedule
 idle          500 us, 0 us
 
 "#]]
@@ -205,7 +226,7 @@ idle          500 us, 0 us
         let mut stats = example();
         (stats.arith, stats.format, stats.scale) =
             (octray_prepare::Arith::F32, octray_prepare::Format::F32, 0);
-        (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
+        (stats.tree.unsplit, stats.seconds.render) = (7, 0.0);
         stats.too_fine = Some("f32 resolves little".into());
         let text = Summary(&stats).to_string();
         assert!(text.contains("arithmetic    f32\n"), "{text}");
@@ -227,8 +248,8 @@ idle          500 us, 0 us
             hand_out: 34_567.8,
         });
         let text = Summary(&stats).to_string();
-        assert!(text.contains("2 ranks, 64 packets"), "{text}");
-        let told = "messages      1,000 packets in 772,000 bytes came back from other ranks, \
+        assert!(text.contains("2 ranks, 64 tiles"), "{text}");
+        let told = "messages      1,000 tiles in 772,000 bytes came back from other ranks, \
             4 us or 34,568 instructions each";
         assert!(text.contains(told), "{text}");
     }

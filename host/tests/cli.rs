@@ -311,17 +311,17 @@ mod schedule {
         f 1 1 1 0 0 0 0 0 0 0 0.5 0\ns 0 16 5 12\n";
 
     #[test]
-    fn the_best_packets_are_told_for_each_number_of_processors() {
+    fn the_best_tiles_are_told_for_each_number_of_processors() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
         octray(
             folder.path(),
-            "schedule a.scene --processors 1,2 --packet-rows 1..4 --tiles 4 --policy static,dynamic",
+            "schedule a.scene --processors 1,2 --tile-rows 1..4 --tiles 4 --policy static,dynamic",
         )
         .assert()
         .success()
         .stdout_eq(str![[r#"
-| processors | packets |              static |             dynamic |
+| processors | tiles |              static |             dynamic |
 |------------|---------|---------------------|---------------------|
 | 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
 | 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
@@ -335,7 +335,7 @@ mod schedule {
     fn every_combination_is_in_the_json_object() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
-        let line = "schedule a.scene --processors 1..4 --packet-rows 2,8 --tiles 8 --json";
+        let line = "schedule a.scene --processors 1..4 --tile-rows 2,8 --tiles 8 --json";
         let output = octray(folder.path(), line).output().unwrap();
         let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let runs = object["runs"].as_array().unwrap();
@@ -351,7 +351,7 @@ mod schedule {
     fn wrong_values_are_bad_usage() {
         for flags in [
             "--processors 0",
-            "--packet-rows 4..1",
+            "--tile-rows 4..1",
             "--policy luck",
             "--contention -1",
         ] {

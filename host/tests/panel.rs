@@ -4,8 +4,8 @@
 use clap::Parser;
 use octray::cli::{Cli, Command as Subcommand};
 use octray_render::interrupt::Interrupt;
-use octray_render::packet::Level;
 use octray_render::picture::{self, Picture};
+use octray_render::tile::Level;
 use snapbox::cmd::{Command, cargo_bin};
 use snapbox::str;
 use std::collections::BTreeSet;

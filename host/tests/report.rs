@@ -51,7 +51,7 @@ fn one_page_shows_everything_and_is_the_same_twice() {
     let page = report(folder.path(), "a.html");
     for expected in [
         "<strong>i16f16</strong>",
-        "octray chart 'a b.scene' --arith i16f16,f32 --tree packed --cost events --size 16x12 -o 'a b-events.svg'",
+        "octray chart 'a b.scene' --arith i16f16,f32 --tree compact-bvh8 --cost events --size 16x12 -o 'a b-events.svg'",
         "octray chart 'deep/a b.scene' --arith",
         "Table III",
         "Where methods fail",

@@ -5,8 +5,8 @@
 //! by threads that have nothing to do with each other, and in each of [`TILINGS`] by two threads that share the
 //! picture and by one alone. What two cores lose against one where nothing is shared is the contention that
 //! the simulation is given, and 2 / (1 + contention) is all that this machine allows. Speed-ups are over one
-//! thread that takes the same packets, since some shapes take fewer instructions than others; the last but one
-//! column is over the fastest thread whatever its packets. Figures are medians over the rounds. It fails if a
+//! thread that takes the same tiles, since some shapes take fewer instructions than others; the last but one
+//! column is over the fastest thread whatever its tiles. Figures are medians over the rounds. It fails if a
 //! picture is another than on one thread.
 
 mod common {
@@ -19,14 +19,14 @@ use common::table::table;
 use octray_lab::simulate::{HAND_OUT, PER_TILE};
 use octray_lab::simulate::{Machine, simulate};
 use octray_prepare::RenderSettings;
-use octray_render::cost::{CostMap, dearest_first};
-use octray_render::deal::{Deal, Policy};
+use octray_render::cost::{CostMap, most_expensive_first};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packets::Shape;
-use octray_render::trace::{self, Traced};
-use octray_render::work::WorkOptions;
-use octray_render::{engine, threads};
+use octray_render::render::{self, Rendering};
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::{Policy, Scheduler};
+use octray_render::tile::TileSize;
+use octray_render::{renderer, threads};
 use octray_scenes::model::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::Path;
@@ -42,14 +42,14 @@ const SETTINGS: RenderSettings = RenderSettings {
 const FIGURES: [u32; 5] = [19, 20, 21, 22, 23];
 
 /// Ways to share a picture: an uneven one, a coarse one, and the default.
-const TILINGS: [(&str, Policy, Shape); 3] = [
+const TILINGS: [(&str, Policy, TileSize); 3] = [
     ("two halves", Policy::Prescheduled, strip(4)),
     ("8 strips", Policy::Dynamic, strip(64)),
-    ("tiles", Policy::Dynamic, WorkOptions::TILE),
+    ("tiles", Policy::Dynamic, Schedule::TILE),
 ];
 
-const fn strip(rows: u32) -> Shape {
-    Shape::strip(NonZeroU32::new(rows).unwrap())
+const fn strip(rows: u32) -> TileSize {
+    TileSize::strip(NonZeroU32::new(rows).unwrap())
 }
 
 /// Compare the speed-up of two threads with what the simulation expects
@@ -123,7 +123,7 @@ struct Sample {
     /// On both at once, each for a picture of its own.
     beside: f64,
     /// What came of each of [`TILINGS`], and the seconds that it took on one core.
-    tiled: Vec<(Traced, f64)>,
+    tiled: Vec<(Rendering, f64)>,
 }
 
 impl Subject {
@@ -139,20 +139,20 @@ impl Subject {
     }
 
     fn measure(&self) -> Result<Sample, Error> {
-        let on = |core: usize, work: &WorkOptions| -> Result<Traced, Error> {
+        let on = |core: usize, work: &Schedule| -> Result<Rendering, Error> {
             threads::pin(core)?;
             trace(&self.scene, work)
         };
-        let mean = |a: &Traced, b: &Traced| (a.render + b.render).as_secs_f64() / 2.0;
-        let each = |work: &WorkOptions| -> Result<(Traced, f64), Error> {
+        let mean = |a: &Rendering, b: &Rendering| (a.render + b.render).as_secs_f64() / 2.0;
+        let each = |work: &Schedule| -> Result<(Rendering, f64), Error> {
             let first = on_its_own(|| on(0, work))?;
             let second = on_its_own(|| on(1, work))?;
             let seconds = mean(&first, &second);
             Ok((first, seconds))
         };
-        let alone = WorkOptions {
+        let alone = Schedule {
             threads: NonZeroUsize::MIN,
-            ..WorkOptions::default()
+            ..Schedule::default()
         };
         let (first, fixed) = each(&alone)?;
         let (left, right) = thread::scope(|scope| {
@@ -161,12 +161,12 @@ impl Subject {
             (joined(left), joined(right))
         });
         let tiled = TILINGS.map(|(_, policy, shape)| {
-            let alone = WorkOptions {
+            let alone = Schedule {
                 policy,
-                packet: Some(shape),
+                tile: Some(shape),
                 ..alone
             };
-            let shared = WorkOptions {
+            let shared = Schedule {
                 threads: const { NonZeroUsize::new(2).unwrap() },
                 pin: true,
                 ..alone
@@ -193,7 +193,7 @@ impl Subject {
         let fastest = (0..TILINGS.len())
             .map(alone)
             .fold(median(samples, |s| s.fixed), f64::min);
-        let row = |(i, (name, ..)): (usize, &(&str, Policy, Shape))| {
+        let row = |(i, (name, ..)): (usize, &(&str, Policy, TileSize))| {
             let seconds = |s: &Sample| s.tiled[i].0.render.as_secs_f64();
             let measured = median(samples, |s| s.tiled[i].1 / seconds(s));
             let traced = &samples[0].tiled[i].0;
@@ -207,7 +207,7 @@ impl Subject {
                 format!("{expected:.3}"),
                 format!("{:+.1} %", 100.0 * (expected / measured - 1.0)),
                 format!("{:.3}", fastest / median(samples, seconds)),
-                format!("{}: {}, {}", name, work.packet, work.schedule.name()),
+                format!("{}: {}, {}", name, work.tile, work.schedule.name()),
                 format!("{:016x}", traced.picture.hash()),
             ])
         };
@@ -215,16 +215,16 @@ impl Subject {
     }
 
     /// The speed-up that the simulation expects, knowing what each pixel costs.
-    fn expected(&self, traced: &Traced, contention: f64) -> Result<f64, Error> {
-        let engine = engine::build(&self.scene, &SETTINGS)?;
-        let map = CostMap::probe(&*engine, NonZeroU32::MIN, &Interrupt::new())?;
+    fn expected(&self, traced: &Rendering, contention: f64) -> Result<f64, Error> {
+        let renderer = renderer::prepare(&self.scene, &SETTINGS)?;
+        let map = CostMap::probe(&*renderer, NonZeroU32::MIN, &Interrupt::new())?;
         let work = &traced.work;
-        let region = engine.built().region();
-        let parts = work.packet.cut(&region);
+        let region = renderer.built().region();
+        let parts = work.tile.cut(&region);
         let costs: Vec<_> = parts.map(|part| map.cost(&part) + PER_TILE).collect();
         let two = const { NonZeroUsize::new(2).unwrap() };
-        let order = dearest_first(&costs);
-        let deal = Deal::new(work.schedule, costs.len(), two, order);
+        let order = most_expensive_first(&costs);
+        let deal = Scheduler::new(work.schedule, costs.len(), two, order);
         let machine = Machine {
             hand_out: HAND_OUT,
             contention,
@@ -234,8 +234,8 @@ impl Subject {
     }
 }
 
-fn trace(scene: &Scene, work: &WorkOptions) -> Result<Traced, Error> {
-    trace::trace(scene, &SETTINGS, work, false, &(), &Interrupt::new())
+fn trace(scene: &Scene, work: &Schedule) -> Result<Rendering, Error> {
+    render::render_with(scene, &SETTINGS, work, false, &(), &Interrupt::new())
 }
 
 /// Does something on a thread of its own, since pinning lasts.

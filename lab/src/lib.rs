@@ -5,7 +5,7 @@
 //! | [`measure`] | what frames cost on emulated boards |
 //! | [`chart`] | speed against accuracy |
 //! | [`plan`] | the least a scene needs on a small target |
-//! | [`sweep`], [`simulate`] | `octray schedule`: how well a picture is shared among processors |
+//! | [`schedule`], [`simulate`] | `octray schedule`: how well a picture is shared among processors |
 //! | [`tables`] | the thesis's tables |
 //! | [`stability`] | where methods hold, degrade and break |
 //! | [`report`] | all of it on one page |
@@ -17,7 +17,8 @@ pub mod chart;
 pub mod measure;
 pub mod plan;
 pub mod report;
+pub mod schedule;
 pub mod simulate;
 pub mod stability;
-pub mod sweep;
+
 pub mod tables;

@@ -59,7 +59,8 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         canvas::write_figure(path, &chart, interrupt)?;
     }
     output::write_stdout(interrupt, |out| {
-        out.write_all(table::text(&report.rows, job.functions).as_bytes())
+        let ratios = ratio::text(&report.rows);
+        out.write_all(table::text(&report.rows, &ratios, job.functions).as_bytes())
     })?;
     all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
 }

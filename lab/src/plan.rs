@@ -10,6 +10,7 @@
 pub mod accuracy;
 pub mod choice;
 pub mod comb;
+pub mod decision;
 pub mod events;
 pub mod fit;
 pub mod job;
@@ -18,7 +19,7 @@ mod reasons;
 pub mod record;
 mod remedy;
 pub mod report;
-pub mod trial;
+pub mod verify;
 
 use accuracy::Scope;
 use choice::{Chooser, choose};
@@ -43,7 +44,7 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     let mut report = plan(job, &scene, interrupt)?;
     let fits = report.failures.is_empty();
     if let (true, true, Some(plan), Some(cost)) = (job.measure, fits, &report.plan, &report.cost) {
-        let trial = trial::run(&job.scene, &scene, plan, cost, job.board, interrupt)?;
+        let trial = verify::run(&job.scene, &scene, plan, cost, job.board, interrupt)?;
         report.trial = Some(trial);
     }
     output::write_stdout(interrupt, |out| match job.json {

@@ -1,7 +1,7 @@
-//! A discrete-event simulation of processors that work on packets: the very dealing that threads get
-//! ([`octray_render::deal`]), on as many processors as wanted.
+//! A discrete-event simulation of processors that work on tiles: the very dealing that threads get
+//! ([`octray_render::scheduler`]), on as many processors as wanted.
 
-use octray_render::deal::Deal;
+use octray_render::scheduler::Scheduler;
 use serde::Serialize;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -17,7 +17,7 @@ pub const HAND_OUT: f64 = 100.0;
 /// A parallel machine. Costs and times are in instructions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Machine {
-    /// For how long a packet that comes from others keeps them from handing out another one.
+    /// For how long a tile that comes from others keeps them from handing out another one.
     pub hand_out: f64,
     /// By how much each further busy processor slows all of them, as on a bus: of `n` each runs at
     /// 1 / (1 + contention · (n − 1)).
@@ -29,7 +29,7 @@ pub struct Machine {
 /// What came of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Outcome {
-    /// From the begin of the serial work to the end of the last packet.
+    /// From the begin of the serial work to the end of the last tile.
     pub time: f64,
     /// How many times faster than one processor, which needs no hand-outs.
     pub speed_up: f64,
@@ -37,19 +37,19 @@ pub struct Outcome {
     pub efficiency: f64,
 }
 
-/// Lets the processors of a fresh deal work on packets that cost what is given.
+/// Lets the processors of a fresh deal work on tiles that cost what is given.
 ///
 /// Until the first processor finds nothing left, all are busy and equally slow; so the events are found in the
 /// processors' own time, which contention stretches afterwards.
-pub fn simulate(costs: &[f64], deal: &Deal, machine: &Machine) -> Outcome {
+pub fn simulate(costs: &[f64], deal: &Scheduler, machine: &Machine) -> Outcome {
     simulate_messages(costs, deal, machine, |_| 0.0)
 }
 
-/// The same where a packet that comes from others keeps them for longer than [`Machine::hand_out`]: by what
+/// The same where a tile that comes from others keeps them for longer than [`Machine::hand_out`]: by what
 /// `more` says of its number.
 pub fn simulate_messages(
     costs: &[f64],
-    deal: &Deal,
+    deal: &Scheduler,
     machine: &Machine,
     more: impl Fn(usize) -> f64,
 ) -> Outcome {
@@ -63,10 +63,10 @@ pub fn simulate_messages(
             continue;
         };
         if dealt.shared {
-            desk_free = desk_free.max(now) + machine.hand_out + more(dealt.packet);
+            desk_free = desk_free.max(now) + machine.hand_out + more(dealt.tile);
             now = desk_free;
         }
-        let cost = costs.get(dealt.packet).copied().unwrap_or_default();
+        let cost = costs.get(dealt.tile).copied().unwrap_or_default();
         free.push(Reverse(Event(now + cost, processor)));
     }
     // In the order of time, for the heap gives no earlier event after a later one.
@@ -108,19 +108,19 @@ impl Ord for Event {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octray_render::cost::dearest_first;
-    use octray_render::deal::Policy;
+    use octray_render::cost::most_expensive_first;
+    use octray_render::scheduler::Policy;
     use std::num::NonZeroUsize;
     use strum::VariantArray;
 
     fn run(costs: &[f64], policy: Policy, processors: usize, machine: Machine) -> Outcome {
         let processors = NonZeroUsize::new(processors).unwrap();
-        let deal = Deal::new(policy, costs.len(), processors, dearest_first(costs));
+        let deal = Scheduler::new(policy, costs.len(), processors, most_expensive_first(costs));
         simulate(costs, &deal, &machine)
     }
 
     #[test]
-    fn equal_packets_are_shared_without_loss() {
+    fn equal_tiles_are_shared_without_loss() {
         for policy in Policy::VARIANTS {
             for processors in [1, 2, 4, 8] {
                 let outcome = run(&[5.0; 64], *policy, processors, Machine::default());
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn more_processors_than_packets_do_not_help() {
+    fn more_processors_than_tiles_do_not_help() {
         for policy in Policy::VARIANTS {
             let outcome = run(&[3.0, 1.0], *policy, 9, Machine::default());
             assert_eq!(outcome.time, 3.0, "{policy:?}");
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn each_policy_ends_when_it_does_by_hand() {
-        // The dear packets come last.
+        // The dear tiles come last.
         let costs = [1.0, 1.0, 1.0, 1.0, 4.0, 4.0];
         for (policy, time) in [
             (Policy::Prescheduled, 9.0),
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn hand_outs_queue_up_and_only_where_packets_are_shared() {
+    fn hand_outs_queue_up_and_only_where_tiles_are_shared() {
         let machine = Machine {
             hand_out: 2.0,
             ..Machine::default()
@@ -199,13 +199,13 @@ mod tests {
     }
 
     #[test]
-    fn each_packet_takes_its_own_time_to_hand_out() {
-        let deal = Deal::new(Policy::Dynamic, 2, NonZeroUsize::new(2).unwrap(), vec![]);
+    fn each_tile_takes_its_own_time_to_hand_out() {
+        let deal = Scheduler::new(Policy::Dynamic, 2, NonZeroUsize::new(2).unwrap(), vec![]);
         let machine = Machine {
             hand_out: 1.0,
             ..Machine::default()
         };
-        let outcome = simulate_messages(&[10.0; 2], &deal, &machine, |packet| packet as f64);
+        let outcome = simulate_messages(&[10.0; 2], &deal, &machine, |tile| tile as f64);
         // The second one waits for a hand-out of 1, and its own takes 2.
         assert_eq!(outcome.time, 13.0);
     }
@@ -217,9 +217,9 @@ mod tests {
             ..Machine::default()
         };
         for policy in Policy::VARIANTS {
-            let deal = Deal::new(*policy, 4, NonZeroUsize::new(4).unwrap(), vec![]);
+            let deal = Scheduler::new(*policy, 4, NonZeroUsize::new(4).unwrap(), vec![]);
             let outcome = simulate(&[10.0; 4], &deal.in_messages(), &machine);
-            // The first processor's packet is no message.
+            // The first processor's tile is no message.
             assert_eq!(outcome.time, 16.0, "{policy:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its figures.
 //!
-//! In the order of the data: a [`subject`] in a variant is a trial, which the [`lab`] traces. Of what it counts
+//! In the order of the data: a [`subject`] in a variant is a trial, which the [`runs`] traces. Of what it counts
 //! [`traced`] makes tables I, II (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`;
 //! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s figures,
 //! and a [`text`]; VIII and IX become [`chart`]s, too.
@@ -8,9 +8,10 @@
 pub mod agreement;
 pub mod chart;
 pub mod emulated;
-pub mod lab;
+
 pub mod number;
 pub mod record;
+pub mod runs;
 pub mod shared;
 pub mod subject;
 pub mod table;
@@ -20,12 +21,12 @@ pub mod traced;
 
 use crate::canvas;
 use chart::Chart;
-use lab::Lab;
 use number::Number;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
+use runs::Runs;
 use shared::{Figure, Outcomes, Simulation};
 use std::path::PathBuf;
 use std::{fs, io};
@@ -86,24 +87,24 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// Makes the tables, and draws those that are charts, too.
 fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     let thesis = Thesis::read(job.thesis.as_deref())?;
-    let lab = Lab::new(job.size, job.time, interrupt);
+    let runs = Runs::new(job.size, job.time, interrupt);
     let progress = Bar::new("tracing");
     progress.start(job.tables.len());
     let figures = match job.tables.iter().any(|number| *number >= Number::Eight) {
-        true => Figure::all(&lab)?,
+        true => Figure::all(&runs)?,
         false => Vec::new(),
     };
     let simulation = &job.simulation;
     let mut tables = Vec::new();
     for number in &job.tables {
         let draft = match number {
-            Number::One => traced::one(&lab)?,
-            Number::Two => traced::two(&lab, &thesis)?,
+            Number::One => traced::one(&runs)?,
+            Number::Two => traced::two(&runs, &thesis)?,
             Number::Three => emulated::three(job.record.as_deref())?,
-            Number::Four => traced::four(&lab)?,
-            Number::Five => traced::five(&lab, &thesis)?,
-            Number::Six => traced::six(&lab)?,
-            Number::Seven => traced::seven(&lab)?,
+            Number::Four => traced::four(&runs)?,
+            Number::Five => traced::five(&runs, &thesis)?,
+            Number::Six => traced::six(&runs)?,
+            Number::Seven => traced::seven(&runs)?,
             Number::Eight => {
                 let outcomes = Outcomes::by_rows(&figures, simulation);
                 draw(

@@ -9,26 +9,26 @@
 //! | name | what |
 //! | --- | --- |
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
-//! | `NEEDS` | what the scene needs, for [`octray_core::needs`] |
+//! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
 //! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
 //! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
 //! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
 //! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
 //! | `NAME`, `ARITH` | the scene and the format, to be told |
 
-mod literal;
 mod source;
 
-pub use literal::Literal;
-
-use crate::format::{Format, InFormat};
-use crate::quantise::{Overflow, Prepared, quantise};
+use crate::dispatch::InFormat;
+use crate::format::Format;
+use crate::literal::Literal;
+use crate::prepare::Prepare;
+use crate::quantise::{Overflow, Prepared};
 use crate::settings::{RenderSettings, TreeKind};
-use crate::tree::{Growth, PackedTree, every_object};
-use octray_core::needs::{self, Needs};
+use crate::tree::{Growth, every_object};
+use octray_core::features::{self, FeatureSet};
+use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
 use octray_core::scene::Surface;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use thiserror::Error;
@@ -50,6 +50,20 @@ pub struct BakeOptions<'a> {
     pub rays: Option<usize>,
 }
 
+impl<'a> BakeOptions<'a> {
+    /// The scene called `name`, rendered with these settings: a tree that is built beforehand, for a target on which hit
+    /// tests cost little.
+    pub const fn new(name: &'a str, settings: RenderSettings) -> Self {
+        Self {
+            name,
+            settings,
+            on_device: false,
+            target: None,
+            rays: None,
+        }
+    }
+}
+
 /// A baked scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Baked {
@@ -57,8 +71,8 @@ pub struct Baked {
     pub source: String,
     /// The format; the one that `auto` has chosen.
     pub format: Format,
-    /// What the scene needs.
-    pub needs: Needs,
+    /// The features that the scene uses.
+    pub features: FeatureSet,
     /// Bytes of the tables, links and nodes included, on a target of 32 bits.
     pub bytes: usize,
     /// How many rays can wait at once.
@@ -92,7 +106,7 @@ pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError
     struct Task<'a>(&'a Scene, &'a BakeOptions<'a>, Format);
     impl InFormat for Task<'_> {
         type Output = Result<Baked, BakeError>;
-        fn run<S: Literal>(self) -> Self::Output {
+        fn run<S: Prepare>(self) -> Self::Output {
             bake_as::<S>(self.0, self.1, self.2)
         }
     }
@@ -101,20 +115,20 @@ pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError
     format.dispatch(Task(scene, options, format))
 }
 
-fn bake_as<S: Literal>(
+fn bake_as<S: Prepare>(
     scene: &Scene,
     options: &BakeOptions<'_>,
     format: Format,
 ) -> Result<Baked, BakeError> {
     let settings = &options.settings;
-    let mut prepared = quantise::<S>(scene, settings).map_err(BakeError::Overflow)?;
+    let mut prepared = S::quantised(scene, settings).map_err(BakeError::Overflow)?;
     let growth = settings.tree.build_options(format, options.target);
     let grow = |scene: &mut _| {
         let growth = Growth {
             options: growth,
             arena: None,
         };
-        PackedTree::build(scene, &growth)
+        S::compact_bvh8(scene, &growth)
             .map_err(|_| BakeError::TooMany)
             .map(|(tree, _)| tree)
     };
@@ -123,7 +137,7 @@ fn bake_as<S: Literal>(
         (TreeKind::None, _) => (source::Tree::None, every),
         (TreeKind::CompactBvh8, false) => {
             let tree = grow(&mut prepared.scene)?;
-            let nodes = tree.tree().waiting();
+            let nodes = tree.tree().required_stack();
             (
                 source::Tree::Packed(tree.words, tree.tick, nodes),
                 tree.links,
@@ -136,13 +150,13 @@ fn bake_as<S: Literal>(
         }
         (other, _) => return Err(BakeError::Tree(other)),
     };
-    let needs = needs_of(&prepared, options.settings.max_depth);
-    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), needs, options));
+    let features = features_of(&prepared, options.settings.max_depth);
+    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), features, options));
     let tables = source::Tables {
         prepared: &prepared,
         tree,
         links: &links,
-        needs,
+        features,
         rays,
         options,
     };
@@ -150,7 +164,7 @@ fn bake_as<S: Literal>(
         bytes: tables.bytes(),
         source: tables.to_string(),
         format,
-        needs,
+        features,
         rays,
         words: tables.tree.room(),
         nodes: tables.tree.nodes(),
@@ -158,29 +172,29 @@ fn bake_as<S: Literal>(
 }
 
 /// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
-fn needs_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> Needs {
+fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet {
     let scene = &prepared.scene;
     let shapes = scene.shapes();
     let mut set = 0;
-    let mut need = |what: Needs, if_so: bool| set |= if if_so { what } else { 0 };
-    for kind in Kind::ALL {
-        need(needs::of_kind(kind), shapes.count(kind) > 0);
+    let mut need = |what: FeatureSet, if_so: bool| set |= if if_so { what } else { 0 };
+    for kind in ObjectKind::ALL {
+        need(features::of_kind(kind), shapes.count(kind) > 0);
     }
-    need(needs::BANDS, !scene.bands.is_empty());
-    need(needs::PATCHES, !scene.patches.is_empty());
-    need(needs::SHADOWS, !scene.lights.is_empty());
+    need(features::BANDS, !scene.bands.is_empty());
+    need(features::PATCHES, !scene.patches.is_empty());
+    need(features::SHADOWS, !scene.lights.is_empty());
     for surface in used_surfaces(prepared) {
         let shines = surface.specular != Vec3::ZERO;
-        need(needs::SPECULAR, shines);
+        need(features::SPECULAR, shines);
         need(
-            needs::FRACTIONS,
+            features::FRACTIONS,
             shines && surface.shine.fraction != S::ZERO,
         );
         need(
-            needs::REFLECTION,
+            features::REFLECTION,
             surface.reflect != S::ZERO && max_depth > 0,
         );
-        need(needs::REFRACTION, surface.refract != S::ZERO);
+        need(features::REFRACTION, surface.refract != S::ZERO);
     }
     set
 }
@@ -201,12 +215,13 @@ fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
 /// that also transmits leaves one more at each bounce.
 fn room<S: Scalar + Literal>(
     surfaces: &[Surface<S>],
-    needs: Needs,
+    features: FeatureSet,
     options: &BakeOptions<'_>,
 ) -> usize {
-    let follows =
-        |what| needs::needs(needs, what) && options.settings.max_depth > 0 && !surfaces.is_empty();
-    match (follows(needs::REFLECTION), follows(needs::REFRACTION)) {
+    let follows = |what| {
+        features::contains(features, what) && options.settings.max_depth > 0 && !surfaces.is_empty()
+    };
+    match (follows(features::REFLECTION), follows(features::REFRACTION)) {
         (false, false) => 0,
         (true, false) | (false, true) => 1,
         (true, true) => {

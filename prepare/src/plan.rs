@@ -19,7 +19,7 @@ use crate::choice::Choice;
 use crate::format::{Arith, Format};
 use crate::settings::{PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use fnv::FnvHasher;
-use octray_core::octree;
+use octray_core::accel;
 use octray_scenes::model::Scene;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
@@ -44,7 +44,7 @@ pub struct Plan {
     /// Rays of less weight are not traced, 0 to 1.
     pub cut_off: f64,
     /// How the [`TreeKind::CompactBvh8`] is built that finds the objects; `None` if every ray tries every object.
-    pub tree: Option<octree::Options>,
+    pub tree: Option<accel::BuildOptions>,
     /// Whether the device builds it.
     pub on_device: bool,
     /// How many rays can wait at once.
@@ -70,7 +70,7 @@ impl Plan {
     pub fn settings(&self) -> RenderSettings {
         let tree = match self.tree {
             None => TreeSettings::of(TreeKind::None),
-            Some(octree::Options { depth, leaf_size }) => TreeSettings {
+            Some(accel::BuildOptions { depth, leaf_size }) => TreeSettings {
                 depth: Some(depth),
                 leaf_size: NonZeroU32::new(leaf_size),
                 ..TreeSettings::of(TreeKind::CompactBvh8)
@@ -130,7 +130,7 @@ impl Display for Plan {
             "scene {scene:016x}\narith {arith}\nsize {width}x{height}\npixels-per-ray {pixels_per_ray}\n\
              max-depth {max_depth}\ncut-off {cut_off}\ntree {kind}\n"
         )?;
-        if let Some(octree::Options { depth, leaf_size }) = tree {
+        if let Some(accel::BuildOptions { depth, leaf_size }) = tree {
             write!(f, "tree-depth {depth}\nleaf-size {leaf_size}\n")?;
         }
         writeln!(f, "rays {rays}")
@@ -194,7 +194,7 @@ impl FromStr for Plan {
         let kind = lines.take("tree", kinds, |text| Some(text.to_owned()))?;
         let tree = match &*kind {
             "none" => None,
-            "compact-bvh8" | "packed" | "device" => Some(octree::Options {
+            "compact-bvh8" | "packed" | "device" => Some(accel::BuildOptions {
                 depth: lines.take("tree-depth", whole, |text| text.parse().ok())?,
                 leaf_size: lines.take("leaf-size", whole, |text| text.parse().ok())?,
             }),
@@ -271,7 +271,7 @@ mod tests {
             pixels_per_ray: PixelsPerRay::Four,
             max_depth: 5,
             cut_off: 1.0 / 512.0,
-            tree: Some(octree::Options {
+            tree: Some(accel::BuildOptions {
                 depth: 3,
                 leaf_size: 2,
             }),
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back() {
         let plan = example();
-        let grown = octree::Options {
+        let grown = accel::BuildOptions {
             depth: 1,
             leaf_size: 9,
         };

@@ -10,21 +10,20 @@
 
 mod camera;
 mod extent;
-mod limits;
 mod resolution;
 mod shapes;
 
+pub use crate::limits::{Bound, Overflow, bounds, limits};
 pub use extent::Extent;
-pub use limits::{Bound, Overflow, bounds, limits};
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::settings::RenderSettings;
-use octray_core::packet::Frame;
-use octray_core::scalar::{Exponent, Quantize, Scalar};
+use octray_core::frame::Frame;
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Exponent, Scalar};
 use octray_core::scene::{Attributes, Light, Scene, Surface};
-use octray_core::shape::{
-    Cone, Cuboid, Kind, ObjectRef, Outlines, Patch, Polygon, Shapes, Sphere, Triangle,
-};
+use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere, Triangle};
 use octray_core::vec3::Vec3;
 use octray_scenes::model;
 
@@ -101,7 +100,7 @@ pub struct Quantised<S: Scalar> {
     pub patches: Vec<Patch<S>>,
     /// Unit normals of patches.
     pub normals: Vec<Vec3<S>>,
-    /// Attributes of all objects, by [`Kind`].
+    /// Attributes of all objects, by [`ObjectKind`].
     pub attributes: [Vec<Attributes>; 5],
     /// Surfaces.
     pub surfaces: Vec<Surface<S>>,
@@ -112,7 +111,7 @@ pub struct Quantised<S: Scalar> {
     /// How far hits may lie off their shapes.
     pub slack: S,
     /// The largest distance between two points.
-    pub reach: S,
+    pub diameter: S,
     all_attributes: Vec<Attributes>,
 }
 
@@ -142,7 +141,7 @@ pub fn quantise<S: Quantize>(
     let frame = settings.frame::<S>(&rays, scene, &extent, &placement);
     let mut quantised = Quantised {
         slack: up(placement.length(placement.diagonal) * S::SLACK),
-        reach: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
+        diameter: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
         surfaces: scene.surfaces.iter().map(surface).collect(),
         lights: scene
             .lights
@@ -181,7 +180,7 @@ impl<S: Quantize> Quantised<S> {
             surfaces: &self.surfaces,
             lights: &self.lights,
             background: self.background,
-            reach: self.reach,
+            diameter: self.diameter,
         }
     }
 
@@ -208,7 +207,7 @@ impl<S: Quantize> Quantised<S> {
     /// objects that are tested together lie together, and renames them in `links`.
     pub fn reorder(&mut self, links: &mut [ObjectRef]) {
         let mut places: [Vec<u32>; 5] =
-            Kind::ALL.map(|kind| vec![u32::MAX; self.shapes().count(kind)]);
+            ObjectKind::ALL.map(|kind| vec![u32::MAX; self.shapes().count(kind)]);
         let mut orders: [Vec<u32>; 5] = Default::default();
         for link in links {
             let kind = link.kind() as usize;
@@ -219,7 +218,7 @@ impl<S: Quantize> Quantised<S> {
             }
             *link = ObjectRef::new(link.kind(), *place).marked_last(link.is_last());
         }
-        for kind in Kind::ALL {
+        for kind in ObjectKind::ALL {
             let order = &mut orders[kind as usize];
             let unlinked = places[kind as usize].iter().enumerate();
             order.extend(
@@ -229,11 +228,11 @@ impl<S: Quantize> Quantised<S> {
             );
             permute(&mut self.attributes[kind as usize], order);
             match kind {
-                Kind::Sphere => permute(&mut self.spheres, order),
-                Kind::Triangle => permute(&mut self.triangles, order),
-                Kind::Polygon => permute(&mut self.polygons, order),
-                Kind::Cone => permute(&mut self.cones, order),
-                Kind::Cuboid => permute(&mut self.cuboids, order),
+                ObjectKind::Sphere => permute(&mut self.spheres, order),
+                ObjectKind::Triangle => permute(&mut self.triangles, order),
+                ObjectKind::Polygon => permute(&mut self.polygons, order),
+                ObjectKind::Cone => permute(&mut self.cones, order),
+                ObjectKind::Cuboid => permute(&mut self.cuboids, order),
             }
         }
         self.gather();

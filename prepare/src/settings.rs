@@ -3,7 +3,7 @@
 use crate::choice::Choice;
 use crate::format::{Arith, Format};
 use crate::target::HitTestCost;
-use octray_core::octree::PACKED_DEPTH;
+use octray_core::accel::COMPACT_MAX_DEPTH;
 use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroUsize};
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
@@ -84,8 +84,8 @@ impl TreeSettings {
         &self,
         format: Format,
         target: Option<&str>,
-    ) -> octray_core::octree::Options {
-        octray_core::octree::Options {
+    ) -> octray_core::accel::BuildOptions {
+        octray_core::accel::BuildOptions {
             depth: self.depth.unwrap_or(self.kind.default_depth()),
             leaf_size: self
                 .leaf_size
@@ -156,7 +156,7 @@ impl TreeKind {
     pub const fn default_depth(self) -> u32 {
         match self {
             Self::Bvh8 => 24,
-            Self::CompactBvh8 => PACKED_DEPTH,
+            Self::CompactBvh8 => COMPACT_MAX_DEPTH,
             Self::Modified | Self::Plain | Self::None => 8,
         }
     }

@@ -35,34 +35,40 @@ fn a_scene_needs_what_is_in_it_and_no_more() {
     let mirror = "f 0 0 0 1 1 1 0 0 0 0 0.5 0";
     let glass = "f 0 0 0 1 1 1 1 1 1 2.5 0.5 0.5 1.5";
     let cases = [
-        (matt, "s 0 0 -5 1", 8, "needs::SPHERES | needs::SHADOWS", 0),
+        (
+            matt,
+            "s 0 0 -5 1",
+            8,
+            "features::SPHERES | features::SHADOWS",
+            0,
+        ),
         (
             mirror,
             "s 0 0 -5 1",
             8,
-            "needs::SPHERES | needs::SHADOWS | needs::REFLECTION",
+            "features::SPHERES | features::SHADOWS | features::REFLECTION",
             1,
         ),
         (
             mirror,
             "s 0 0 -5 1",
             0,
-            "needs::SPHERES | needs::SHADOWS",
+            "features::SPHERES | features::SHADOWS",
             0,
         ),
         (
             glass,
             "box 0 0 -5 1 1 1",
             3,
-            "needs::CUBOIDS | needs::SHADOWS | needs::SPECULAR | needs::FRACTIONS | \
-             needs::REFLECTION | needs::REFRACTION",
+            "features::CUBOIDS | features::SHADOWS | features::SPECULAR | features::FRACTIONS | \
+             features::REFLECTION | features::REFRACTION",
             4,
         ),
     ];
     for (surface, object, max_depth, needs, rays) in cases {
         let baked = baked(&format!("{surface} {object}"), Arith::F32, max_depth).unwrap();
-        let expected = format!("pub const NEEDS: needs::Needs = {needs};");
-        assert_eq!(line(&baked, "pub const NEEDS"), expected);
+        let expected = format!("pub const FEATURES: features::FeatureSet = {needs};");
+        assert_eq!(line(&baked, "pub const FEATURES"), expected);
         let expected = format!("pub const RAYS: usize = {rays};");
         assert_eq!(line(&baked, "pub const RAYS"), expected);
     }

@@ -31,3 +31,8 @@ pub mod write;
 pub use generate::generate;
 pub use parse::{ReadError, parse, read};
 pub use write::write;
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

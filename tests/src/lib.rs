@@ -3,4 +3,6 @@
 
 pub mod oracle;
 pub mod shot;
+/// Beside what tests core with it.
+#[path = "../../core/tests/support/strew.rs"]
 pub mod strew;

@@ -2,8 +2,8 @@
 
 use octray_prepare::{Arith, RenderSettings, TreeKind};
 use octray_render::interrupt::Interrupt;
-use octray_render::trace::{Traced, trace};
-use octray_render::work::WorkOptions;
+use octray_render::render::{Rendering, render_with};
+use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 use std::fs;
 use std::num::NonZeroUsize;
@@ -77,12 +77,12 @@ impl Shot {
     ///
     /// # Panics
     /// If the scene does not fit the arithmetic.
-    pub fn take(&self, scene: &Scene) -> Traced {
-        let work = WorkOptions {
+    pub fn take(&self, scene: &Scene) -> Rendering {
+        let work = Schedule {
             threads: NonZeroUsize::MIN,
-            ..WorkOptions::default()
+            ..Schedule::default()
         };
-        trace(scene, &self.settings, &work, false, &(), &Interrupt::new())
+        render_with(scene, &self.settings, &work, false, &(), &Interrupt::new())
             .unwrap_or_else(|e| panic!("{e}"))
     }
 }

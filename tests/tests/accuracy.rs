@@ -2,14 +2,15 @@
 //!
 //! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
 
-use octray_core::octree::{Accelerator, Stack};
-use octray_core::scalar::Quantize;
+use octray_core::accel::{Accelerator, TraversalStack};
+use octray_core::quantize::Quantize;
 use octray_prepare::Arith;
+use octray_prepare::Prepare;
 use octray_prepare::RenderSettings;
-use octray_prepare::bake::Literal;
-use octray_prepare::format::{Format, InFormat};
+use octray_prepare::dispatch::InFormat;
+use octray_prepare::format::Format;
 use octray_prepare::quantise::quantise;
-use octray_prepare::tree::{Growth, TightTree};
+use octray_prepare::tree::{Growth, OwnedBvh8};
 use octray_render::metric::Difference;
 use octray_scenes::model::Scene;
 use octray_tests::shot::{self, Shot};
@@ -92,7 +93,7 @@ fn first_objects_in(format: Format, scene: &Scene) -> Vec<Option<u32>> {
     struct Task<'a>(&'a Scene);
     impl InFormat for Task<'_> {
         type Output = Vec<Option<u32>>;
-        fn run<S: Literal>(self) -> Self::Output {
+        fn run<S: Prepare>(self) -> Self::Output {
             first_objects::<S>(self.0)
         }
     }
@@ -107,15 +108,15 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     };
     let mut prepared = quantise::<S>(scene, &view).expect("the scene fits the format");
     let growth = Growth {
-        options: octray_core::octree::Options {
+        options: octray_core::accel::BuildOptions {
             depth: 24,
             leaf_size: 2,
         },
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let (scene, tree) = (prepared.scene.scene(), tree.tree());
-    let mut stack = Stack::default();
+    let mut stack = TraversalStack::default();
     let active = prepared.frame.active();
     let pixels = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
     pixels
@@ -123,7 +124,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
             if !active.columns.contains(&column) || !active.rows.contains(&row) {
                 return None;
             }
-            let (x, y) = prepared.frame.place(column, row, 0, 0);
+            let (x, y) = prepared.frame.sample_position(column, row, 0, 0);
             let ray = prepared.frame.camera().row(y).ray(x);
             tree.nearest(&scene, &ray, &mut stack, &mut ())
                 .map(|hit| scene.attributes_of(hit.object).id)

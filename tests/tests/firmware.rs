@@ -5,12 +5,14 @@
 //! Boards whose target is not installed, or whose emulator is missing, are skipped; which, is told.
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
-use octray_core::octree::Options;
-use octray_core::scalar::{Fixed, Quantize, reset_saturations, saturations};
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::accel::BuildOptions;
+use octray_core::quantize::Quantize;
+use octray_core::scalar::Fixed;
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::quantise;
-use octray_prepare::tree::{Growth, TightTree};
+use octray_prepare::saturation::{PerThread, saturations};
+use octray_prepare::tree::{Growth, OwnedBvh8};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -187,9 +189,9 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         size: Some(job.size),
         ..RenderSettings::DEFAULT
     };
-    reset_saturations();
+    let before = saturations();
     let mut prepared = quantise::<S>(&scene, &view).unwrap();
-    let options = Options {
+    let options = BuildOptions {
         depth: 24,
         leaf_size: 2,
     };
@@ -197,7 +199,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         options,
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let scene = prepared.scene.scene();
     let tracer = Tracer {
         scene: &scene,
@@ -206,9 +208,9 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         cut_off: S::from_f64(1.0 / 512.0),
     };
     let mut workspace = Workspace {
-        rays: &mut [Pending::EMPTY; 10],
+        rays: &mut [QueuedRay::EMPTY; 10],
         stack: &mut Default::default(),
-        blockers: &mut vec![None; scene.lights.len()],
+        shadow_cache: &mut vec![None; scene.lights.len()],
     };
     let background = scene.background.to_array().map(S::level);
     let mut levels = vec![background; (width * height) as usize];
@@ -217,7 +219,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         .render(0..height, &tracer, &mut workspace, &mut (), |x, y, c| {
             levels[(y * width + x) as usize] = c.to_array().map(S::level);
         });
-    assert_eq!(saturations(), 0, "{job:?}");
+    assert_eq!(saturations(), before, "{job:?}");
     let bytes = [width.to_le_bytes(), height.to_le_bytes()].concat();
     let hash = (bytes.iter().chain(levels.as_flattened()))
         .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
@@ -302,7 +304,7 @@ fn fixed_point_is_the_same_everywhere() {
     };
     same_everywhere(
         job,
-        &hash_here::<Fixed<16, true>>(job),
+        &hash_here::<Fixed<16, PerThread>>(job),
         divides_by_no_routine,
     );
 }
@@ -359,7 +361,7 @@ fn a_tree_may_be_built_on_the_device_or_left_out() {
         size: SMALL,
         tree,
     };
-    let expected = hash_here::<Fixed<16, true>>(job("packed"));
+    let expected = hash_here::<Fixed<16, PerThread>>(job("packed"));
     for tree in ["device", "none"] {
         let told = emulate(MICROBIT, &build(MICROBIT, job(tree)));
         assert_eq!(value(&told, "hash"), expected, "{tree}");

@@ -6,10 +6,9 @@
 //! 1/x starts from 12.5 % and would be at 2.4e-4 after two steps.
 
 use super::float::power_f32;
-use super::{Exponent, Quantize, Scalar};
-use crate::octree::Slope;
+use super::operators::operators;
+use super::{Exponent, Intensity, Ratio, Scalar, Tolerance};
 use core::cmp::Ordering;
-use core::ops::{Add, Mul, Neg, Sub};
 use micromath::F32Ext;
 
 /// An `f32` whose reciprocal and reciprocal root are approximate, with `NEWTON` refining steps.
@@ -41,43 +40,17 @@ impl<const N: u32> PartialOrd for Approx<N> {
     }
 }
 
-impl<const N: u32> Add for Approx<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
-
-impl<const N: u32> Sub for Approx<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
-    }
-}
-
-impl<const N: u32> Mul for Approx<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(self.0 * other.0)
-    }
-}
-
-impl<const N: u32> Neg for Approx<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
+operators! { [const N: u32] Approx<N>,
+    Add::add = |a, b| Self(a.0 + b.0);
+    Sub::sub = |a, b| Self(a.0 - b.0);
+    Mul::mul = |a, b| Self(a.0 * b.0);
+    Neg::neg = |a| Self(-a.0);
 }
 
 impl<const N: u32> Scalar for Approx<N> {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
     const MAX: Self = Self(f32::MAX);
-    const EXACT_ROOTS: bool = false;
 
     type Wide = Self;
 
@@ -117,27 +90,17 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn scaled(self, reciprocal: f32) -> Self {
+    fn times_reciprocal(self, reciprocal: f32) -> Self {
         Self((self.0 * reciprocal).clamp(f32::MIN, f32::MAX))
     }
 
     #[inline(always)]
-    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+    fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
         false
     }
 
     #[inline(always)]
-    fn whole_reciprocal(n: u32) -> f32 {
-        1.0 / n as f32
-    }
-
-    #[inline(always)]
-    fn ratio(numerator: i32, n: f32) -> Self {
-        Self(numerator as f32 * n)
-    }
-
-    #[inline(always)]
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         (self.0 * n as f32) as u32
     }
 
@@ -153,15 +116,6 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn power(self, exponent: Exponent<Self>) -> Self {
-        let exponent = Exponent {
-            whole: exponent.whole,
-            fraction: exponent.fraction.0,
-        };
-        Self(power_f32(self.0, exponent))
-    }
-
-    #[inline(always)]
     fn to_local(self, _: i8) -> Self {
         self
     }
@@ -170,25 +124,45 @@ impl<const N: u32> Scalar for Approx<N> {
     fn to_global(self, _: i8) -> Self {
         self
     }
+}
+
+impl<const N: u32> Tolerance for Approx<N> {
+    const EXACT_ROOTS: bool = false;
+
+    const HITS_WITHIN_SLACK: bool = N >= 2;
 
     #[inline(always)]
-    fn surface_error(position: Self, reach: Self) -> Self {
+    fn surface_error(position: Self, curvature_extent: Self) -> Self {
         let curved = match N {
             0 => 1.0 / 16.0,
             1 => 1.0 / 256.0,
             _ => 1.0 / 65_536.0,
         };
-        Self(position.0 * (1.0 / 524_288.0) + reach.0 * curved)
+        Self(position.0 * (1.0 / 524_288.0) + curvature_extent.0 * curved)
     }
 
+    #[inline(always)]
+    fn with_rounding_margin(self) -> Self {
+        Self(self.0.with_rounding_margin())
+    }
+}
+
+impl<const N: u32> Ratio for Approx<N> {
+    #[inline(always)]
+    fn whole_reciprocal(n: u32) -> f32 {
+        1.0 / n as f32
+    }
+
+    #[inline(always)]
+    fn ratio(numerator: i32, n: f32) -> Self {
+        Self(numerator as f32 * n)
+    }
+}
+
+impl<const N: u32> Intensity for Approx<N> {
     #[inline(always)]
     fn level(self) -> u8 {
         self.0.level()
-    }
-
-    #[inline(always)]
-    fn or_little_more(self) -> Self {
-        Self(self.0.or_little_more())
     }
 
     #[inline(always)]
@@ -197,47 +171,11 @@ impl<const N: u32> Scalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn grid(self) -> i32 {
-        self.0.grid()
-    }
-
-    const GRID_SLACK: i32 = f32::GRID_SLACK;
-
-    const SOUND: bool = N >= 2;
-
-    #[inline(always)]
-    fn slope_q30(self) -> i32 {
-        self.0.slope_q30()
-    }
-
-    type Plane = f32;
-
-    #[inline(always)]
-    fn plane(self) -> f32 {
-        self.0
-    }
-
-    #[inline(always)]
-    fn from_plane(plane: f32) -> Self {
-        Self(plane)
-    }
-
-    #[inline(always)]
-    fn slope(self) -> Slope<f32> {
-        Slope::<f32>::of(self.0)
-    }
-}
-
-impl<const N: u32> Quantize for Approx<N> {
-    const NAME: &'static str = ["approx0", "approx1", "approx2"][N as usize];
-    const FRACTION_BITS: Option<u32> = None;
-    const SLACK: f64 = [1.0 / 8.0, 1.0 / 128.0, 1.0 / 16_384.0][N as usize];
-
-    fn from_f64(x: f64) -> Self {
-        Self(x as f32)
-    }
-
-    fn to_f64(self) -> f64 {
-        f64::from(self.0)
+    fn power(self, exponent: Exponent<Self>) -> Self {
+        let exponent = Exponent {
+            whole: exponent.whole,
+            fraction: exponent.fraction.0,
+        };
+        Self(power_f32(self.0, exponent))
     }
 }

@@ -3,62 +3,64 @@
 //! Names carry the scaling: `x_q31` is an integer that stands for x · 2³¹.
 
 mod power;
+mod reciprocal;
 mod root;
 mod wide;
 
+pub use reciprocal::Reciprocal;
+pub(crate) use root::reciprocal_q15;
 pub use wide::Fixed64;
 
+use super::operators::operators;
 use super::zeros::{leading_zeros, leading_zeros_64};
-use super::{Exponent, Quantize, Scalar, multiply};
-use crate::octree::Slope;
-use core::ops::{Add, Mul, Neg, Sub};
-pub(crate) use root::reciprocal_q15;
-use root::{reciprocal_q30, rsqrt_q30};
+use super::{Exponent, Intensity, Ratio, SaturationCounter, Scalar, Tolerance, multiply};
+use core::cmp::Ordering;
+use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
+use reciprocal::saturate;
+use root::rsqrt_q30;
 
-/// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28.
+/// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28: steps of 2⁻ᶠ, values from
+/// −2³¹⁻ᶠ to 2³¹⁻ᶠ.
 ///
 /// `+`, `-` and `*` need no saturation where the scene's bounds prove that nothing overflows, as
-/// they do for every scene that a planner accepted. With `CHECKED` they saturate all the same, and
-/// each saturation is counted in [`saturations`]; without, they wrap, in fewer instructions. Both
-/// give the same bits as long as the count stays 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd)]
+/// they do for every scene that a planner accepted. With a counter that is
+/// [checked](SaturationCounter::CHECKED) they saturate all the same, and `C` counts each
+/// saturation; with `()` they wrap, in fewer instructions. All give the same bits as long as nothing
+/// saturates.
+///
+/// ```
+/// use core::sync::atomic::{AtomicU32, Ordering};
+/// use octray_core::quantize::Quantize;
+/// use octray_core::scalar::{Fixed, SaturationCounter, Scalar};
+///
+/// // 16 bits behind the point, unchecked: what boards use.
+/// let third = Fixed::<16>::from_f64(1.0 / 3.0);
+/// assert_eq!(third.to_bits(), 21845);
+/// assert_eq!((third * third).to_bits(), 7282);
+/// assert_eq!(Fixed::<16>::ONE.quotient(third).to_bits(), 3 * 65536 + 3);
+///
+/// // Checked and counted, here in a static.
+/// static COUNT: AtomicU32 = AtomicU32::new(0);
+/// struct Counted;
+/// impl SaturationCounter for Counted {
+///     const CHECKED: bool = true;
+///     fn saturated() {
+///         COUNT.fetch_add(1, Ordering::Relaxed);
+///     }
+/// }
+/// let large = Fixed::<16, Counted>::from_f64(30_000.0);
+/// assert_eq!((large + large).to_bits(), i32::MAX);
+/// assert_eq!(COUNT.load(Ordering::Relaxed), 1);
+/// ```
 #[repr(transparent)]
-pub struct Fixed<const F: u32, const CHECKED: bool>(i32);
+pub struct Fixed<const F: u32, C = ()>(i32, PhantomData<fn() -> C>);
 
-/// The saturations of all checked fixed-point operations of this process since the last
-/// [`reset_saturations`].
-pub fn saturations() -> u32 {
-    count::COUNT.load(core::sync::atomic::Ordering::Relaxed)
-}
-
-/// Starts counting saturations anew.
-pub fn reset_saturations() {
-    count::COUNT.store(0, core::sync::atomic::Ordering::Relaxed);
-}
-
-mod count {
-    use core::sync::atomic::{AtomicU32, Ordering};
-
-    pub(super) static COUNT: AtomicU32 = AtomicU32::new(0);
-
-    /// Counts one saturation; on cores without atomic addition two threads may count one less.
-    #[cold]
-    pub(super) fn saturated() {
-        #[cfg(target_has_atomic = "32")]
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        #[cfg(not(target_has_atomic = "32"))]
-        COUNT.store(
-            COUNT.load(Ordering::Relaxed).wrapping_add(1),
-            Ordering::Relaxed,
-        );
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Fixed<F, CHECKED> {
+impl<const F: u32, C> Fixed<F, C> {
     /// The number with this bit pattern: `raw` · 2⁻ᶠ.
     #[inline(always)]
     pub const fn from_bits(raw: i32) -> Self {
-        Self(raw)
+        Self(raw, PhantomData)
     }
 
     /// The bit pattern: the number times 2ᶠ.
@@ -66,14 +68,55 @@ impl<const F: u32, const CHECKED: bool> Fixed<F, CHECKED> {
     pub const fn to_bits(self) -> i32 {
         self.0
     }
+}
 
+// Not derived: nothing of this depends on the counter.
+impl<const F: u32, C> Copy for Fixed<F, C> {}
+
+impl<const F: u32, C> Clone for Fixed<F, C> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<const F: u32, C> Default for Fixed<F, C> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::from_bits(0)
+    }
+}
+
+impl<const F: u32, C> PartialEq for Fixed<F, C> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<const F: u32, C> Eq for Fixed<F, C> {}
+
+impl<const F: u32, C> PartialOrd for Fixed<F, C> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
+impl<const F: u32, C> Debug for Fixed<F, C> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Fixed").field(&self.0).finish()
+    }
+}
+
+impl<const F: u32, C: SaturationCounter> Fixed<F, C> {
     #[inline(always)]
     fn fit(raw: i64) -> Self {
-        if CHECKED && raw != i64::from(raw as i32) {
-            count::saturated();
-            return Self(if raw < 0 { -i32::MAX } else { i32::MAX });
+        if C::CHECKED && raw != i64::from(raw as i32) {
+            C::saturated();
+            return Self::from_bits(if raw < 0 { -i32::MAX } else { i32::MAX });
         }
-        Self(raw as i32)
+        Self::from_bits(raw as i32)
     }
 }
 
@@ -81,79 +124,24 @@ impl<const F: u32, const CHECKED: bool> Fixed<F, CHECKED> {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
 pub struct Product(i64);
 
-impl Add for Product {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0.wrapping_add(other.0))
-    }
+operators! { [] Product,
+    Add::add = |a, b| Self(a.0.wrapping_add(b.0));
+    Sub::sub = |a, b| Self(a.0.wrapping_sub(b.0));
 }
 
-impl Sub for Product {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0.wrapping_sub(other.0))
-    }
-}
-
-/// 1/x as a signed mantissa of 31 bits and a right shift: a/x = a · mantissa / 2^shift.
-#[derive(Clone, Copy, Debug)]
-pub struct Reciprocal {
-    /// In [2³⁰, 2³¹), with the sign of x.
-    mantissa: i32,
-    /// 1 to 62.
-    shift: u8,
-}
-
-impl Reciprocal {
-    /// A reciprocal from what [`Reciprocal::parts`] gave.
-    #[inline(always)]
-    pub const fn from_parts(mantissa: i32, shift: u8) -> Self {
-        Self { mantissa, shift }
-    }
-
-    /// The mantissa and the shift, to be written down.
-    #[inline(always)]
-    pub const fn parts(self) -> (i32, u8) {
-        (self.mantissa, self.shift)
-    }
-
-    /// Of `raw` · 2⁻ᶠ, such that a raw number times it is a raw number again.
-    #[inline(always)]
-    fn new(raw: i32, fraction_bits: u32) -> Self {
-        let size = raw.unsigned_abs();
-        if size == 0 {
-            return Self {
-                mantissa: i32::MAX,
-                shift: 1,
-            };
-        }
-        let zeros = leading_zeros(size);
-        let mantissa = reciprocal_q30(size << zeros) as i32;
-        Self {
-            mantissa: if raw < 0 { -mantissa } else { mantissa },
-            shift: (62 - fraction_bits - zeros) as u8,
-        }
-    }
-
-    /// `a` / x, to nearest, saturating.
-    #[inline(always)]
-    fn divide(self, a: i32) -> i32 {
-        let twice = multiply::signed(a, self.mantissa) >> (self.shift.wrapping_sub(1) & 63);
-        saturate((twice + 1) >> 1)
-    }
-}
-
-#[inline(always)]
-fn saturate(raw: i64) -> i32 {
-    if raw == i64::from(raw as i32) {
-        raw as i32
-    } else if raw < 0 {
-        -i32::MAX
+operators! { [const F: u32, C: SaturationCounter] Fixed<F, C>,
+    Add::add = |a, b| if C::CHECKED {
+        Self::fit(i64::from(a.0) + i64::from(b.0))
     } else {
-        i32::MAX
-    }
+        Self::from_bits(a.0.wrapping_add(b.0))
+    };
+    Sub::sub = |a, b| if C::CHECKED {
+        Self::fit(i64::from(a.0) - i64::from(b.0))
+    } else {
+        Self::from_bits(a.0.wrapping_sub(b.0))
+    };
+    Mul::mul = |a, b| Self::narrow(Self::product(a, b));
+    Neg::neg = |a| Self::from_bits(a.0.wrapping_neg());
 }
 
 /// The upper word of `x` · 2^`left`, 0 ≤ `left` < 64: what is shifted out is lost. In words of 32
@@ -179,51 +167,10 @@ fn shortened(x_q30: u64, right: u32) -> i32 {
     }
 }
 
-impl<const F: u32, const CHECKED: bool> Add for Fixed<F, CHECKED> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        if CHECKED {
-            Self::fit(i64::from(self.0) + i64::from(other.0))
-        } else {
-            Self(self.0.wrapping_add(other.0))
-        }
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Sub for Fixed<F, CHECKED> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        if CHECKED {
-            Self::fit(i64::from(self.0) - i64::from(other.0))
-        } else {
-            Self(self.0.wrapping_sub(other.0))
-        }
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Mul for Fixed<F, CHECKED> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self::narrow(Self::product(self, other))
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Neg for Fixed<F, CHECKED> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.wrapping_neg())
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
-    const ZERO: Self = Self(0);
-    const ONE: Self = Self(1 << F);
-    const MAX: Self = Self(i32::MAX);
-    const EXACT_ROOTS: bool = true;
+impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
+    const ZERO: Self = Self::from_bits(0);
+    const ONE: Self = Self::from_bits(1 << F);
+    const MAX: Self = Self::from_bits(i32::MAX);
 
     type Wide = Product;
 
@@ -245,12 +192,12 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     #[inline(always)]
     fn sqrt_wide(wide: Product) -> Self {
         if wide.0 <= 0 {
-            return Self(0);
+            return Self::from_bits(0);
         }
         let zeros = leading_zeros_64(wide.0 as u64) & !1;
         let x_q32 = upper(wide.0 as u64, zeros);
         let root_q62 = multiply::unsigned(x_q32, rsqrt_q30(x_q32)) + (1 << 29);
-        Self(shortened(root_q62, zeros / 2))
+        Self::from_bits(shortened(root_q62, zeros / 2))
     }
 
     type Reciprocal = Reciprocal;
@@ -261,30 +208,19 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn scaled(self, reciprocal: Reciprocal) -> Self {
-        Self(reciprocal.divide(self.0))
+    fn times_reciprocal(self, reciprocal: Reciprocal) -> Self {
+        Self::from_bits(reciprocal.divide(self.0))
     }
 
     // The quotient's relative error is below 2⁻²⁷, its rounding below one step.
     #[inline(always)]
-    fn surely_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
+    fn quotient_exceeds(numerator: Self, divisor: Self, limit: Self) -> bool {
         let limit = i64::from(limit.0) + i64::from(limit.0 >> 24) + 4;
         i64::from(numerator.0) << F > i64::from(divisor.0) * limit
     }
 
     #[inline(always)]
-    fn whole_reciprocal(n: u32) -> Reciprocal {
-        // A quotient of two numbers of the same scaling does not depend on the scaling.
-        Reciprocal::new(n as i32, F)
-    }
-
-    #[inline(always)]
-    fn ratio(numerator: i32, n: Reciprocal) -> Self {
-        Self(n.divide(numerator))
-    }
-
-    #[inline(always)]
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         (multiply::unsigned(self.0.max(0) as u32, n) >> F) as u32
     }
 
@@ -294,7 +230,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
         let size = v[0].0.unsigned_abs() | v[1].0.unsigned_abs() | v[2].0.unsigned_abs();
         if size == 0 {
-            return (v, Self(0));
+            return (v, Self::from_bits(0));
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = leading_zeros(size).saturating_sub(1);
@@ -311,43 +247,59 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
         let half = (1i32 << shift) >> 1;
         let unit = [x, y, z].map(|c| {
             let product = multiply::signed(c, inverse_q30 as i32);
-            Self(((product >> 32) as i32).wrapping_add(half) >> shift)
+            Self::from_bits(((product >> 32) as i32).wrapping_add(half) >> shift)
         });
         let length_q62 = multiply::unsigned(x_q32, inverse_q30);
-        (unit, Self(shortened(length_q62, up + zeros / 2)))
-    }
-
-    #[inline(always)]
-    fn power(self, exponent: Exponent<Self>) -> Self {
-        Self(power::power(self.0, F, exponent.whole, exponent.fraction.0))
+        (unit, Self::from_bits(shortened(length_q62, up + zeros / 2)))
     }
 
     #[inline(always)]
     fn to_local(self, exponent: i8) -> Self {
         if exponent >= 0 {
-            Self(self.0 << (exponent & 31))
+            Self::from_bits(self.0 << (exponent & 31))
         } else {
-            Self(self.0 >> (exponent.unsigned_abs() & 31))
+            Self::from_bits(self.0 >> (exponent.unsigned_abs() & 31))
         }
     }
 
     #[inline(always)]
     fn to_global(self, exponent: i8) -> Self {
         if exponent >= 0 {
-            Self(self.0 >> (exponent & 31))
+            Self::from_bits(self.0 >> (exponent & 31))
         } else {
-            Self(saturate(
+            Self::from_bits(saturate(
                 i64::from(self.0) << (exponent.unsigned_abs() & 31),
             ))
         }
     }
+}
+
+impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
+    const EXACT_ROOTS: bool = true;
+
+    const HITS_WITHIN_SLACK: bool = F >= 16;
 
     #[inline(always)]
-    fn surface_error(_: Self, reach: Self) -> Self {
+    fn surface_error(_: Self, curvature_extent: Self) -> Self {
         // Rounding is absolute here, but for a curved shape's normal, which has F bits.
-        Self((reach.0 >> (F - 2)).wrapping_add(8))
+        Self::from_bits((curvature_extent.0 >> (F - 2)).wrapping_add(8))
+    }
+}
+
+impl<const F: u32, C: SaturationCounter> Ratio for Fixed<F, C> {
+    #[inline(always)]
+    fn whole_reciprocal(n: u32) -> Reciprocal {
+        // A quotient of two numbers of the same scaling does not depend on the scaling.
+        Reciprocal::new(n as i32, F)
     }
 
+    #[inline(always)]
+    fn ratio(numerator: i32, n: Reciprocal) -> Self {
+        Self::from_bits(n.divide(numerator))
+    }
+}
+
+impl<const F: u32, C: SaturationCounter> Intensity for Fixed<F, C> {
     #[inline(always)]
     fn level(self) -> u8 {
         let c = i64::from(self.0.clamp(0, 1 << F));
@@ -360,64 +312,7 @@ impl<const F: u32, const CHECKED: bool> Scalar for Fixed<F, CHECKED> {
     }
 
     #[inline(always)]
-    fn grid(self) -> i32 {
-        self.0
-    }
-
-    const GRID_SLACK: i32 = 4;
-
-    const SOUND: bool = F >= 16;
-
-    #[inline(always)]
-    fn slope_q30(self) -> i32 {
-        self.0 << (30 - F)
-    }
-
-    type Plane = i32;
-
-    #[inline(always)]
-    fn plane(self) -> i32 {
-        self.0
-    }
-
-    #[inline(always)]
-    fn from_plane(plane: i32) -> Self {
-        Self(plane)
-    }
-
-    #[inline(always)]
-    fn slope(self) -> Slope<i32> {
-        let Reciprocal { mantissa, shift } = Reciprocal::new(self.0, F);
-        Slope::<i32>::new(self.0 < 0, mantissa, shift)
-    }
-}
-
-impl<const F: u32, const CHECKED: bool> Quantize for Fixed<F, CHECKED> {
-    const NAME: &'static str = match F {
-        8 => "i24f8",
-        10 => "i22f10",
-        12 => "i20f12",
-        14 => "i18f14",
-        16 => "i16f16",
-        18 => "i14f18",
-        20 => "i12f20",
-        22 => "i10f22",
-        24 => "i8f24",
-        26 => "i6f26",
-        28 => "i4f28",
-        _ => "fixed",
-    };
-    const FRACTION_BITS: Option<u32> = Some(F);
-    // A direction is rounded to F bits: over the scene's diagonal that is this share of it.
-    const SLACK: f64 = 4.0 / (1u64 << F) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        // `as` saturates and makes NaN 0; the most negative value has no opposite.
-        let scaled = x * (1u64 << F) as f64;
-        Self((libm::floor(scaled + 0.5) as i32).max(-i32::MAX))
-    }
-
-    fn to_f64(self) -> f64 {
-        f64::from(self.0) / (1u64 << F) as f64
+    fn power(self, exponent: Exponent<Self>) -> Self {
+        Self::from_bits(power::power(self.0, F, exponent.whole, exponent.fraction.0))
     }
 }

@@ -1,18 +1,15 @@
 //! `f32` and `f64`: hardware or software floating point, with libm for the roots
 //! but where an instruction takes them ([`root`]).
 
-use super::whole::whole;
-use super::{Exponent, Quantize, Scalar, root};
-use crate::octree::Slope;
+use super::{Exponent, Intensity, Ratio, Scalar, Tolerance, root};
 
 /// One definition of every operation for both widths.
 macro_rules! float {
-    ($t:ident, $sqrt:path, $power:path, whole: $whole:ident, position: $p:expr, reach: $r:expr) => {
+    ($t:ident, $sqrt:path, $power:path, position: $p:expr, curvature: $r:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const MAX: Self = $t::MAX;
-            const EXACT_ROOTS: bool = true;
 
             type Wide = Self;
 
@@ -44,7 +41,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn scaled(self, reciprocal: Self) -> Self {
+            fn times_reciprocal(self, reciprocal: Self) -> Self {
                 self * reciprocal
             }
 
@@ -55,22 +52,12 @@ macro_rules! float {
 
             // A division costs no more than the question.
             #[inline(always)]
-            fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+            fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
                 false
             }
 
             #[inline(always)]
-            fn whole_reciprocal(n: u32) -> Self {
-                1.0 / (n as $t)
-            }
-
-            #[inline(always)]
-            fn ratio(numerator: i32, n: Self) -> Self {
-                numerator as $t * n
-            }
-
-            #[inline(always)]
-            fn part(self, n: u32) -> u32 {
+            fn scale_to_index(self, n: u32) -> u32 {
                 (self * n as $t) as u32
             }
 
@@ -87,11 +74,6 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn power(self, exponent: Exponent<Self>) -> Self {
-                $power(self, exponent)
-            }
-
-            #[inline(always)]
             fn to_local(self, _: i8) -> Self {
                 self
             }
@@ -100,12 +82,38 @@ macro_rules! float {
             fn to_global(self, _: i8) -> Self {
                 self
             }
+        }
+
+        impl Tolerance for $t {
+            const EXACT_ROOTS: bool = true;
+
+            const HITS_WITHIN_SLACK: bool = true;
 
             #[inline(always)]
-            fn surface_error(position: Self, reach: Self) -> Self {
-                position * $p + reach * $r
+            fn surface_error(position: Self, curvature_extent: Self) -> Self {
+                position * $p + curvature_extent * $r
             }
 
+            #[inline(always)]
+            fn with_rounding_margin(self) -> Self {
+                // Four roundings.
+                self * (1.0 + 2.0 * $t::EPSILON)
+            }
+        }
+
+        impl Ratio for $t {
+            #[inline(always)]
+            fn whole_reciprocal(n: u32) -> Self {
+                1.0 / (n as $t)
+            }
+
+            #[inline(always)]
+            fn ratio(numerator: i32, n: Self) -> Self {
+                numerator as $t * n
+            }
+        }
+
+        impl Intensity for $t {
             #[inline(always)]
             fn level(self) -> u8 {
                 // The cast saturates.
@@ -113,87 +121,20 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn or_little_more(self) -> Self {
-                // Four roundings.
-                self * (1.0 + 2.0 * $t::EPSILON)
-            }
-
-            #[inline(always)]
             fn accumulate(self, light: Self) -> Self {
                 self + light
             }
 
-            // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
-            // a unit in `f32`, 2⁷ on the grid; points are off by a few.
             #[inline(always)]
-            fn grid(self) -> i32 {
-                $whole::<29>(self)
-            }
-
-            const GRID_SLACK: i32 = 1 << 10;
-
-            const SOUND: bool = true;
-
-            #[inline(always)]
-            fn slope_q30(self) -> i32 {
-                $whole::<30>(self)
-            }
-
-            type Plane = Self;
-
-            #[inline(always)]
-            fn plane(self) -> Self {
-                self
-            }
-
-            #[inline(always)]
-            fn from_plane(plane: Self) -> Self {
-                plane
-            }
-
-            #[inline(always)]
-            fn slope(self) -> Slope<Self> {
-                Slope::<Self>::of(self)
+            fn power(self, exponent: Exponent<Self>) -> Self {
+                $power(self, exponent)
             }
         }
     };
 }
 
-float!(f32, root::sqrt_f32, power_f32, whole: whole, position: 1.0 / 524_288.0, reach: 1.0 / 524_288.0);
-float!(f64, libm::sqrt, power_f64, whole: whole_f64, position: 1.0 / (1u64 << 44) as f64, reach: 1.0 / (1u64 << 44) as f64);
-
-impl Quantize for f32 {
-    const NAME: &'static str = "f32";
-    const FRACTION_BITS: Option<u32> = None;
-    const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        x as f32
-    }
-
-    fn to_f64(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Quantize for f64 {
-    const NAME: &'static str = "f64";
-    const FRACTION_BITS: Option<u32> = None;
-    const SLACK: f64 = 1.0 / (1u64 << 48) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        x
-    }
-
-    fn to_f64(self) -> f64 {
-        self
-    }
-}
-
-#[inline(always)]
-fn whole_f64<const BITS: u32>(x: f64) -> i32 {
-    (x * (1u64 << BITS) as f64) as i32
-}
+float!(f32, root::sqrt_f32, power_f32, position: 1.0 / 524_288.0, curvature: 1.0 / 524_288.0);
+float!(f64, libm::sqrt, power_f64, position: 1.0 / (1u64 << 44) as f64, curvature: 1.0 / (1u64 << 44) as f64);
 
 #[inline(always)]
 fn power_f64(x: f64, exponent: Exponent<f64>) -> f64 {

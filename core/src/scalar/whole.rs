@@ -3,11 +3,17 @@
 
 /// `x` · 2^`BITS` towards 0, for |x| · 2^`BITS` < 2³¹; 8 ≤ `BITS` ≤ 31.
 #[inline(always)]
-pub(super) fn whole<const BITS: u32>(x: f32) -> i32 {
+pub(crate) fn whole_f32<const BITS: u32>(x: f32) -> i32 {
     #[cfg(not(octray_soft_float))]
     return (x * (1u64 << BITS) as f32) as i32;
     #[cfg(octray_soft_float)]
     return by_shift::<BITS>(x);
+}
+
+/// The same of an `f64`.
+#[inline(always)]
+pub(crate) fn whole_f64<const BITS: u32>(x: f64) -> i32 {
+    (x * (1u64 << BITS) as f64) as i32
 }
 
 /// 0 beyond the range, where the product saturates: coordinates and directions never are.

@@ -1,14 +1,14 @@
 //! The truncated cone, the cylinder included: its side surface, without caps.
 
-use super::Contact;
+use super::contact::Contact;
 use crate::observe::Observer;
-use crate::ray::{Bounds, Ray};
-use crate::scalar::Scalar;
+use crate::ray::{Aabb, Ray};
+use crate::scalar::Tolerance;
 use crate::vec3::Vec3;
 
 /// The side of a truncated cone.
 ///
-/// Lengths marked *local* are scaled by [`Scalar::to_local`] with `exponent`, which brings the
+/// Lengths marked *local* are scaled by [`to_local`](crate::scalar::Scalar::to_local) with `exponent`, which brings the
 /// radius of the bounding sphere to [½, 1) in fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
@@ -26,14 +26,14 @@ pub struct Cone<S> {
     /// The cosine of that angle, > 0 (1 for a cylinder).
     pub cos: S,
     /// The radius of the bounding sphere around `centre`, with slack.
-    pub reach: S,
+    pub bounding_radius: S,
     /// The scale of the local lengths.
     pub exponent: i8,
     /// The box that all hits lie in.
-    pub bounds: Bounds<S>,
+    pub bounds: Aabb<S>,
 }
 
-impl<S: Scalar> Cone<S> {
+impl<S: Tolerance> Cone<S> {
     /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale:
     /// from a distant origin it would cancel.
     #[inline(always)]
@@ -42,7 +42,7 @@ impl<S: Scalar> Cone<S> {
         let to_centre = self.centre - ray.origin;
         let middle = to_centre.dot(d);
         let apart = d * middle - to_centre;
-        if apart.square_wide() > self.reach.square() {
+        if apart.square_wide() > self.bounding_radius.square() {
             return None;
         }
         observer.side();
@@ -142,7 +142,8 @@ impl<S: Scalar> Cone<S> {
     /// |t| ≤ 1 in local scale for fixed point, so compare before dividing.
     #[inline(always)]
     fn root(&self, numerator: S, denominator: S) -> Option<S> {
-        let diameter = self.reach.to_local(self.exponent) + self.reach.to_local(self.exponent);
+        let diameter = self.bounding_radius.to_local(self.exponent)
+            + self.bounding_radius.to_local(self.exponent);
         let within = S::product(numerator.abs(), S::ONE) <= S::product(denominator.abs(), diameter);
         (within && denominator != S::ZERO).then(|| numerator.quotient(denominator))
     }
@@ -158,7 +159,7 @@ impl<S: Scalar> Cone<S> {
         Contact {
             point: point - outward * above.to_global(self.exponent),
             outward,
-            reach: self.reach,
+            curvature_extent: self.bounding_radius,
             closed: true,
         }
     }

@@ -1,8 +1,8 @@
 //! The axis-aligned box.
 
-use super::Contact;
-use crate::ray::{Bounds, Ray};
-use crate::scalar::Scalar;
+use super::contact::Contact;
+use crate::ray::{Aabb, Ray};
+use crate::scalar::Tolerance;
 use crate::vec3::{Axis, Vec3, vec3};
 
 /// A box.
@@ -21,7 +21,7 @@ struct Crossing<S> {
     exit: (S, Axis),
 }
 
-impl<S: Scalar> Cuboid<S> {
+impl<S: Tolerance> Cuboid<S> {
     /// The slab method (Kay and Kajiya 1986). A ray along a slab is inside or outside of it for
     /// good, its faces included; no quotient is formed. A ray through an edge meets the box: the
     /// far side is taken for as far as rounding can have brought it nearer.
@@ -39,7 +39,10 @@ impl<S: Scalar> Cuboid<S> {
                 continue;
             }
             let reciprocal = d.reciprocal();
-            let (a, b) = (low.scaled(reciprocal), high.scaled(reciprocal));
+            let (a, b) = (
+                low.times_reciprocal(reciprocal),
+                high.times_reciprocal(reciprocal),
+            );
             let (near, far) = if d < S::ZERO { (b, a) } else { (a, b) };
             if near > entry.0 {
                 entry = (near, axis);
@@ -48,7 +51,7 @@ impl<S: Scalar> Cuboid<S> {
                 exit = (far, axis);
             }
         }
-        (entry.0 <= exit.0.or_little_more()).then_some(Crossing { entry, exit })
+        (entry.0 <= exit.0.with_rounding_margin()).then_some(Crossing { entry, exit })
     }
 
     #[inline(always)]
@@ -59,15 +62,15 @@ impl<S: Scalar> Cuboid<S> {
         } else {
             crossing.exit.0
         };
-        let in_box = || S::SOUND || self.bounds(slack).contains(ray.at(t));
+        let in_box = || S::HITS_WITHIN_SLACK || self.bounds(slack).contains(ray.at(t));
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
     /// The box that all hits lie in.
     #[inline(always)]
-    pub(super) fn bounds(&self, slack: S) -> Bounds<S> {
+    pub(super) fn bounds(&self, slack: S) -> Aabb<S> {
         let slack = vec3(slack, slack, slack);
-        Bounds {
+        Aabb {
             low: self.low - slack,
             high: self.high + slack,
         }
@@ -89,7 +92,7 @@ impl<S: Scalar> Cuboid<S> {
         Contact {
             point,
             outward,
-            reach: S::ZERO,
+            curvature_extent: S::ZERO,
             closed: true,
         }
     }

@@ -1,9 +1,9 @@
 //! The sphere.
 
-use super::{Contact, around};
-use crate::ray::{Bounds, Ray};
-use crate::scalar::Scalar;
-use crate::vec3::Vec3;
+use super::contact::Contact;
+use crate::ray::{Aabb, Ray};
+use crate::scalar::Tolerance;
+use crate::vec3::{Vec3, vec3};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Sphere<S> {
     pub radius: S,
 }
 
-impl<S: Scalar> Sphere<S> {
+impl<S: Tolerance> Sphere<S> {
     /// Thesis (2.8), with the discriminant taken from the vector between the centre and the ray's
     /// closest approach to it: b² − c cancels far from the sphere (Haines, Günther and
     /// Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", 2019).
@@ -26,15 +26,15 @@ impl<S: Scalar> Sphere<S> {
         let square = self.radius.square();
         // A ray that starts outside leaves most spheres that it starts from that way, without a root.
         let behind = || middle < S::ZERO && to_centre.square_wide() > square;
-        // A question more costs nothing where numbers are dear. Where they are not, it is guessed
-        // wrong too often to come first.
-        let dear = cfg!(octray_soft_float);
-        if dear && behind() {
+        // With soft floats this early exit is cheap next to the square root. With a floating-point
+        // unit the branch mispredicts too often to pay.
+        let early = cfg!(octray_soft_float);
+        if early && behind() {
             return None;
         }
         let apart = to_centre - ray.direction * middle;
         let discriminant = square - apart.square_wide();
-        if discriminant < S::product(S::ZERO, S::ZERO) || !dear && behind() {
+        if discriminant < S::product(S::ZERO, S::ZERO) || !early && behind() {
             return None;
         }
         let half_chord = S::sqrt_wide(discriminant);
@@ -44,14 +44,19 @@ impl<S: Scalar> Sphere<S> {
         } else {
             middle + half_chord
         };
-        let reach = self.radius + slack;
-        let in_box = || S::SOUND || (ray.at(t) - self.centre).size() <= reach;
+        let half_extent = self.radius + slack;
+        let in_box = || S::HITS_WITHIN_SLACK || (ray.at(t) - self.centre).size() <= half_extent;
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
     /// The box that all hits lie in.
-    pub(super) fn bounds(&self, slack: S) -> Bounds<S> {
-        around(self.centre, self.radius + slack)
+    pub(super) fn bounds(&self, slack: S) -> Aabb<S> {
+        let half_extent = self.radius + slack;
+        let half_extent = vec3(half_extent, half_extent, half_extent);
+        Aabb {
+            low: self.centre - half_extent,
+            high: self.centre + half_extent,
+        }
     }
 
     /// The point goes back onto the sphere along the normal.
@@ -61,7 +66,7 @@ impl<S: Scalar> Sphere<S> {
         Contact {
             point: self.centre + outward * self.radius,
             outward,
-            reach: self.radius,
+            curvature_extent: self.radius,
             closed: true,
         }
     }

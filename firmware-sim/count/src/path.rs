@@ -151,7 +151,7 @@ mod tests {
     fn names_are_watched_by_their_last_part() {
         let patterns = ["nearest".to_owned(), "kernel_*".to_owned()];
         for (name, expected) in [
-            ("<octray_core::octree::Packed as A<S>>::nearest", true),
+            ("<octray_core::accel::CompactBvh8 as A<S>>::nearest", true),
             ("kernel_add", true),
             ("octray_core::nearest_of", false),
             ("octray_core::nearest::f", false),

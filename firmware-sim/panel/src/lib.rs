@@ -9,16 +9,16 @@ mod overlay;
 mod screen;
 
 use embedded_graphics::pixelcolor::{BinaryColor, Gray8, Rgb565, Rgb888};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_embedded::dither::{Dithered, PanelColor};
 use octray_embedded::render::{ROWS, Strips};
 use octray_prepare::{Arith, RenderSettings};
-use octray_render::engine;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
-use octray_render::packet::Packet;
 use octray_render::picture::Target;
+use octray_render::renderer;
+use octray_render::tile::Tile;
 use screen::Screen;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -90,25 +90,25 @@ where
         size: Some(job.panel),
         ..RenderSettings::DEFAULT
     };
-    let engine = engine::build(&scene, &settings)?;
+    let renderer = renderer::prepare(&scene, &settings)?;
     let strips = Strips {
         width,
         height,
-        block: engine.built().block,
+        block: renderer.built().block,
     };
     let mut screen = Screen::<C>::new(job, interrupt)?;
     let mut dithered = Dithered {
         panel: &mut screen,
         ordered: job.dither,
     };
-    let mut worker = engine.worker();
+    let mut worker = renderer.worker();
     let mut strip = vec![[0; 3]; (width * ROWS) as usize];
     // Not the time that the simulated panel takes.
     let mut tracing = std::time::Duration::ZERO;
     strips.draw(&mut dithered, &mut strip, |rows, pixels| {
         let begin = Instant::now();
         let columns = 0..width;
-        worker.trace(Packet {
+        worker.trace(Tile {
             region: Region { columns, rows },
             levels: pixels,
             intensities: None,
@@ -116,7 +116,7 @@ where
         tracing += begin.elapsed();
     })?;
     let told = overlay::text(
-        engine.built().format.name(),
+        renderer.built().format.name(),
         worker.counters().all_rays(),
         tracing.as_secs_f64(),
     );

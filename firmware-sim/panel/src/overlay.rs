@@ -8,7 +8,7 @@ use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
 use octray_embedded::dither::{PanelColor, Threshold};
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
 /// Number format, rays, and seconds of tracing in three digits or more.
 pub(crate) fn text(format: &str, rays: u64, seconds: f64) -> String {

@@ -19,9 +19,9 @@ use crate::baked::{S, SCENE, TREE, Tree};
 use core::hint::black_box;
 use inputs::{NARROW, WIDE, aimed, numbers, pairs, vectors};
 use kernels::{Shapes, Stack, Walk};
-use octray_core::octree::Accelerator;
+use octray_core::accel::Accelerator;
+use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
-use octray_core::shape::{Kind, ObjectRef};
 use octray_embedded::tally::Tally;
 use semihosting::process::exit;
 
@@ -29,7 +29,7 @@ use semihosting::process::exit;
 fn run() -> ! {
     marks::octray_resume();
     arithmetic();
-    let hits = Kind::ALL.map(shape);
+    let hits = ObjectKind::ALL.map(shape);
     let steps = tree();
     lights();
     marks::octray_pause();
@@ -77,13 +77,13 @@ fn arithmetic() {
 }
 
 /// The hit test of one kind of shape, on rays of which some hit; how many.
-fn shape(kind: Kind) -> u32 {
+fn shape(kind: ObjectKind) -> u32 {
     let kernel: fn(&Shapes, usize, &Ray<S>) -> Option<S> = match kind {
-        Kind::Sphere => kernels::kernel_sphere,
-        Kind::Triangle => kernels::kernel_triangle,
-        Kind::Polygon => kernels::kernel_polygon,
-        Kind::Cone => kernels::kernel_cone,
-        Kind::Cuboid => kernels::kernel_box,
+        ObjectKind::Sphere => kernels::kernel_sphere,
+        ObjectKind::Triangle => kernels::kernel_triangle,
+        ObjectKind::Polygon => kernels::kernel_polygon,
+        ObjectKind::Cone => kernels::kernel_cone,
+        ObjectKind::Cuboid => kernels::kernel_box,
     };
     let kernel = black_box(kernel);
     let shapes = black_box(&SCENE.shapes);
@@ -101,11 +101,10 @@ fn tree() -> u32 {
     let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
     // A node is two words and two for each child; the upper bits of the second tell how many.
-    let size = tree.words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
-    let trunk = Tree {
-        words: tree.words.get(..size as usize).unwrap_or_default(),
-        ..*tree
-    };
+    let words = tree.words();
+    let size = words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
+    let root_alone = words.get(..size as usize).unwrap_or_default();
+    let trunk = Tree::new(root_alone, tree.links(), tree.tick()).unwrap_or(*tree);
     let trunk = black_box(&trunk);
     let mut stack = Stack::default();
     let mut steps = 0;
@@ -129,8 +128,8 @@ fn lights() {
     ];
     let [one, two] = kernels.map(black_box);
     let scene = black_box(&SCENE);
-    for i in 0..scene.shapes.count(Kind::Sphere) {
-        let sphere = ObjectRef::new(Kind::Sphere, i as u32);
+    for i in 0..scene.shapes.count(ObjectKind::Sphere) {
+        let sphere = ObjectRef::new(ObjectKind::Sphere, i as u32);
         for ray in aimed(sphere, NARROW) {
             black_box(one(scene, sphere, black_box(&ray)));
             black_box(two(scene, sphere, black_box(&ray)));

@@ -19,9 +19,9 @@ use common::table::table;
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
+use octray_render::render::{Rendering, render_with};
+use octray_render::schedule::Schedule;
 use octray_render::stats::Rays;
-use octray_render::trace::{Traced, trace};
-use octray_render::work::WorkOptions;
 use octray_scenes::generate::{Kind, Spec, generate};
 use std::fs::File;
 use std::io::BufWriter;
@@ -201,12 +201,12 @@ impl Subject {
         let begin = Instant::now();
         let scene = octray_scenes::read(&self.path)?;
         let parse = begin.elapsed().as_secs_f64();
-        let on = |threads: NonZeroUsize| -> Result<Traced, Error> {
-            let work = WorkOptions {
+        let on = |threads: NonZeroUsize| -> Result<Rendering, Error> {
+            let work = Schedule {
                 threads,
-                ..WorkOptions::default()
+                ..Schedule::default()
             };
-            trace(&scene, &SETTINGS, &work, false, &(), &Interrupt::new())
+            render_with(&scene, &SETTINGS, &work, false, &(), &Interrupt::new())
         };
         let one = on(NonZeroUsize::MIN)?;
         let two = on(const { NonZeroUsize::new(2).unwrap() })?;

@@ -1,21 +1,21 @@
 //! A scene brought into its arithmetic, and the tree grown over it.
 
-use crate::engine::{Built, Engine, Octree};
-use crate::grown::Grown;
-use crate::ready::{Ready, intensity, level};
-use octray_core::octree::{self, Summary, Variant};
-use octray_core::scalar::Quantize;
-use octray_prepare::bake::Literal;
-use octray_prepare::format::{Format, InFormat};
-use octray_prepare::quantise::{self, Overflow, Prepared};
+use crate::owned::OwnedAccelerator;
+use crate::prepared::{PreparedScene, intensity, level};
+use crate::renderer::{Built, Renderer, TreeStats};
+use octray_core::accel::{self, BuildStats, OctreeVariant};
+use octray_prepare::dispatch::InFormat;
+use octray_prepare::format::Format;
+use octray_prepare::prepare::Prepare;
+use octray_prepare::quantise::{Overflow, Prepared};
 use octray_prepare::settings::{Link, RenderSettings, TreeKind};
-use octray_prepare::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::tree::{Growth, every_object};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 
 /// Why a scene could not be made ready.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Error {
+pub enum PrepareError {
     /// The scene does not fit the arithmetic.
     #[error(transparent)]
     Overflow(#[from] Overflow),
@@ -27,8 +27,11 @@ pub enum Error {
 /// Makes a scene ready.
 ///
 /// # Errors
-/// [`Error::Overflow`] or [`Error::Objects`] if the scene does not fit the arithmetic or the tree.
-pub fn build(scene: &Scene, settings: &RenderSettings) -> Result<Box<dyn Engine>, Error> {
+/// [`PrepareError::Overflow`] or [`PrepareError::Objects`] if the scene does not fit the arithmetic or the tree.
+pub fn prepare(
+    scene: &Scene,
+    settings: &RenderSettings,
+) -> Result<Box<dyn Renderer>, PrepareError> {
     let format = settings.arith.format(scene, settings.max_depth);
     let request = Request {
         scene,
@@ -46,16 +49,16 @@ struct Request<'a> {
 }
 
 impl InFormat for Request<'_> {
-    type Output = Result<Box<dyn Engine>, Error>;
+    type Output = Result<Box<dyn Renderer>, PrepareError>;
 
-    fn run<S: Literal>(self) -> Self::Output {
+    fn run<S: Prepare>(self) -> Self::Output {
         self.build::<S>()
     }
 }
 
 impl Request<'_> {
-    fn build<S: Quantize>(&self) -> Result<Box<dyn Engine>, Error> {
-        let mut prepared = quantise::quantise::<S>(self.scene, self.settings)?;
+    fn build<S: Prepare>(&self) -> Result<Box<dyn Renderer>, PrepareError> {
+        let mut prepared = S::quantised(self.scene, self.settings)?;
         let tree = &self.settings.tree;
         let growth = Growth {
             options: tree.build_options(self.format, None),
@@ -63,47 +66,47 @@ impl Request<'_> {
         };
         let variant = match tree.kind {
             TreeKind::Bvh8 => {
-                let (tree, summary) = TightTree::build(&mut prepared.scene, &growth);
+                let (tree, summary) = S::bvh8(&mut prepared.scene, &growth);
+                let tree = OwnedAccelerator::Bvh8(tree);
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::CompactBvh8 => {
-                let (tree, summary) =
-                    PackedTree::build(&mut prepared.scene, &growth).map_err(|_| Error::Objects)?;
+                let (tree, summary) = S::compact_bvh8(&mut prepared.scene, &growth)
+                    .map_err(|_| PrepareError::Objects)?;
+                let tree = OwnedAccelerator::CompactBvh8(tree);
                 return Ok(self.ready(prepared, tree, summary));
             }
             TreeKind::None => {
                 let all = every_object(&prepared.scene);
-                let summary = Summary {
-                    links: all.len() as u32,
-                    ..Summary::default()
-                };
-                return Ok(self.ready(prepared, all, summary));
+                let summary = BuildStats::of_list(all.len() as u32);
+                let tree = OwnedAccelerator::BruteForce(all);
+                return Ok(self.ready(prepared, tree, summary));
             }
-            TreeKind::Modified => Variant::Modified,
-            TreeKind::Plain => Variant::Plain,
+            TreeKind::Modified => OctreeVariant::Modified,
+            TreeKind::Plain => OctreeVariant::Plain,
         };
         let link = match tree.link {
-            Link::Shape => octree::Link::Shape,
-            Link::Box => octree::Link::Box,
+            Link::Shape => accel::LinkBy::Shape,
+            Link::Box => accel::LinkBy::Box,
         };
-        let (tree, summary) = OctantTree::build(&mut prepared.scene, &growth, variant, link);
-        Ok(self.ready(prepared, tree, summary))
+        let (tree, summary) = S::octree(&mut prepared.scene, &growth, variant, link);
+        Ok(self.ready(prepared, OwnedAccelerator::Octree(tree), summary))
     }
 
-    fn ready<S: Quantize, T: Grown<S> + 'static>(
+    fn ready<S: Prepare>(
         &self,
         prepared: Prepared<S>,
-        tree: T,
-        summary: Summary,
-    ) -> Box<dyn Engine> {
+        tree: OwnedAccelerator<S::Bound>,
+        summary: BuildStats,
+    ) -> Box<dyn Renderer> {
         let background = prepared.scene.background;
         let built = Built {
             format: self.format,
             scale: prepared.placement.exponent,
-            too_fine: quantise::resolution::<S>(self.scene, self.settings)
+            too_fine: S::resolution(self.scene, self.settings)
                 .err()
                 .map(|fine| fine.to_string()),
-            octree: Octree {
+            tree: TreeStats {
                 kind: self.settings.tree.kind,
                 nodes: u64::from(summary.inner + summary.leaves),
                 links: u64::from(summary.links),
@@ -115,7 +118,7 @@ impl Request<'_> {
             block: prepared.frame.block(),
             background: (level(background), intensity(background)),
         };
-        Box::new(Ready {
+        Box::new(PreparedScene {
             prepared,
             tree,
             built,

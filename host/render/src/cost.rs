@@ -1,19 +1,19 @@
 //! What parts of a picture cost to trace: a weighted sum of counted events, which unlike time is the same
 //! every time.
 
-use crate::engine::Engine;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::renderer::Renderer;
+use octray_core::frame::Region;
+use octray_core::object::ObjectKind;
 use octray_core::observe::{Counters, RayKind};
-use octray_core::packet::Region;
-use octray_core::shape::Kind;
 use std::num::NonZeroU32;
 use std::ops::Range;
 
 /// How many events there are weights for.
 pub const EVENTS: usize = 11;
 
-/// What is counted, in the order of [`events`] and [`WEIGHTS`]; the kinds of objects in that of [`Kind::ALL`].
+/// What is counted, in the order of [`events`] and [`WEIGHTS`]; the kinds of objects in that of [`ObjectKind::ALL`].
 pub const NAMES: [&str; EVENTS] = [
     "primary ray",
     "reflected or transmitted ray",
@@ -38,11 +38,11 @@ pub const WEIGHTS: [f64; EVENTS] = [
 /// The events that make up the cost of what was counted.
 pub fn events(counters: &Counters) -> [u64; EVENTS] {
     let rays = |kind| counters.rays_of(kind);
-    let tested = |kind: Kind| {
-        let searches = counters.searches.iter();
+    let tested = |kind: ObjectKind| {
+        let searches = counters.queries.iter();
         searches.map(|search| search.tests[kind as usize]).sum()
     };
-    let [sphere, triangle, polygon, cone, cuboid] = Kind::ALL.map(tested);
+    let [sphere, triangle, polygon, cone, cuboid] = ObjectKind::ALL.map(tested);
     [
         rays(RayKind::Primary),
         rays(RayKind::Reflected) + rays(RayKind::Transmitted),
@@ -84,16 +84,16 @@ impl CostMap {
     /// # Errors
     /// [`Error::Interrupted`] if it was.
     pub fn probe(
-        engine: &dyn Engine,
+        renderer: &dyn Renderer,
         cell: NonZeroU32,
         interrupt: &Interrupt,
     ) -> Result<Self, Error> {
-        let built = engine.built();
+        let built = renderer.built();
         let block = built.block;
         let cell = cell.get().next_multiple_of(block);
         let middle = cell / 2 / block * block;
         let rays = f64::from(cell / block).powi(2);
-        let mut worker = engine.worker();
+        let mut worker = renderer.worker();
         let mut before = 0.0;
         let Region { columns, rows } = built.active.clone();
         // Rays start where blocks do, which begin at even pixels.
@@ -126,22 +126,22 @@ impl CostMap {
     ///
     /// # Errors
     /// [`Error::Interrupted`] if it was.
-    pub fn coarse(engine: &dyn Engine, interrupt: &Interrupt) -> Result<Self, Error> {
+    pub fn coarse(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Self, Error> {
         const MOST: f64 = 1024.0;
-        let Region { columns, rows } = &engine.built().active;
+        let Region { columns, rows } = &renderer.built().active;
         let pixels = columns.len() as f64 * rows.len() as f64;
         let side = (pixels / MOST).sqrt().ceil() as u32;
         Self::probe(
-            engine,
+            renderer,
             NonZeroU32::new(side).unwrap_or(NonZeroU32::MIN),
             interrupt,
         )
     }
 
     /// The numbers of tiles from the most expensive to the cheapest.
-    pub fn dearest_first(&self, tiles: &[Region]) -> Vec<u32> {
+    pub fn most_expensive_first(&self, tiles: &[Region]) -> Vec<u32> {
         let costs: Vec<_> = tiles.iter().map(|tile| self.cost(tile)).collect();
-        dearest_first(&costs)
+        most_expensive_first(&costs)
     }
 
     /// The map of a region whose cells cost what is given, row by row.
@@ -223,8 +223,8 @@ struct Place {
     share: f64,
 }
 
-/// The numbers of packets from the dearest to the cheapest; equally dear ones keep their order.
-pub fn dearest_first(costs: &[f64]) -> Vec<u32> {
+/// The numbers of tiles from the dearest to the cheapest; equally dear ones keep their order.
+pub fn most_expensive_first(costs: &[f64]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..costs.len() as u32).collect();
     order.sort_by(|a, b| f64::total_cmp(&costs[*b as usize], &costs[*a as usize]));
     order
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_dearest_packets_come_first() {
-        assert_eq!(dearest_first(&[2.0, 5.0, 1.0, 5.0]), [1, 3, 0, 2]);
+    fn the_dearest_tiles_come_first() {
+        assert_eq!(most_expensive_first(&[2.0, 5.0, 1.0, 5.0]), [1, 3, 0, 2]);
     }
 }

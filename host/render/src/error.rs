@@ -50,8 +50,8 @@ pub enum Error {
 }
 
 /// A scene that could not be made ready: it failed.
-impl From<crate::engine::Error> for Error {
-    fn from(error: crate::engine::Error) -> Self {
+impl From<crate::renderer::PrepareError> for Error {
+    fn from(error: crate::renderer::PrepareError) -> Self {
         Self::Failed(error.to_string())
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::metric;
-use crate::packet::Level;
 use crate::picture::Picture;
+use crate::tile::Level;
 
 /// The part of the ramp that is used: its black end could be taken for equal pixels.
 const DARKEST: f64 = 0.25;

@@ -1,8 +1,8 @@
 //! How far one picture is from another, in 8-bit levels.
 
 use crate::error::Error;
-use crate::packet::Level;
 use crate::picture::Picture;
+use crate::tile::Level;
 
 /// The distance between two pictures of the same size.
 ///

@@ -1,6 +1,7 @@
 //! Pictures: 8-bit levels, float intensities where asked for, and the files that hold them.
 
 mod format;
+mod malformed;
 mod netpbm;
 mod palette;
 mod pfm;
@@ -8,10 +9,11 @@ mod png;
 mod ppm;
 mod ras;
 
-pub use format::{Format, RasDepth, Target, read};
+pub use format::{Format, Target, read};
+pub use ras::RasDepth;
 
-use crate::packet::{Intensity, Level};
-use crate::packets::Part;
+use crate::tile::TileBuffer;
+use crate::tile::{Intensity, Level};
 use fnv::FnvHasher;
 use std::hash::Hasher;
 use std::io;
@@ -91,7 +93,7 @@ impl Picture {
     }
 
     /// Put a part in its place, which must lie in the picture. Intensities are put if both have them.
-    pub fn put(&mut self, part: &Part) {
+    pub fn put(&mut self, part: &TileBuffer) {
         let rows = part.region.rows.start as usize..;
         let (width, left) = (self.width as usize, part.region.columns.start as usize);
         let columns = left..left + part.region.columns.len();

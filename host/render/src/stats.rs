@@ -1,7 +1,7 @@
 //! What a rendering cost, counted.
 
-use crate::deal::Policy;
-use crate::packets::Shape;
+use crate::scheduler::Policy;
+use crate::tile::TileSize;
 use octray_core::observe::{Counters, RayKind};
 use serde::Serialize;
 
@@ -43,28 +43,28 @@ impl Rays {
 pub struct Work {
     /// Threads that traced.
     pub threads: usize,
-    /// How packets were dealt to them.
+    /// How tiles were dealt to them.
     pub schedule: Policy,
-    /// How large packets were.
-    pub packet: Shape,
+    /// How large tiles were.
+    pub tile: TileSize,
     /// How many there were.
-    pub packets: usize,
+    pub tiles: usize,
     /// What went between the ranks of an MPI job, if it was one; a rank counts as a thread.
     pub messages: Option<Messages>,
     /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
     pub idle: Vec<f64>,
 }
 
-/// Packets that came back to the first rank of an MPI job.
+/// Tiles that came back to the first rank of an MPI job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Messages {
     /// How many.
     pub count: u64,
     /// Their bytes.
     pub bytes: u64,
-    /// For how many seconds the first rank took packets back and handed out others.
+    /// For how many seconds the first rank took tiles back and handed out others.
     pub seconds: f64,
-    /// Instructions ([`crate::cost`]) that a rank traces while the first one does that with one packet: for
+    /// Instructions ([`crate::cost`]) that a rank traces while the first one does that with one tile: for
     /// `octray schedule --messages --hand-out`.
     pub hand_out: f64,
 }

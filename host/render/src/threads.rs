@@ -1,8 +1,8 @@
-//! Threads that work on the packets they are dealt.
+//! Threads that work on the tiles they are assigned.
 
-use crate::deal::{Deal, Dealt};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::scheduler::{Assignment, Scheduler};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,15 +11,15 @@ use std::time::{Duration, Instant};
 pub struct Finished<S> {
     /// The state it built up.
     pub state: S,
-    /// How many packets it worked on.
-    pub packets: usize,
-    /// When it was ready for its first packet, counted from the start of all threads.
+    /// How many tiles it worked on.
+    pub tiles: usize,
+    /// When it was ready for its first tile, counted from the start of all threads.
     pub begun: Duration,
-    /// When it had done its last packet.
+    /// When it had done its last tile.
     pub ended: Duration,
 }
 
-/// For how long each thread had nothing to work on, until the last one had done its last packet.
+/// For how long each thread had nothing to work on, until the last one had done its last tile.
 pub fn idle<S>(finished: &[Finished<S>]) -> impl Iterator<Item = Duration> {
     let end = finished.iter().map(|thread| thread.ended).max();
     finished
@@ -27,43 +27,43 @@ pub fn idle<S>(finished: &[Finished<S>]) -> impl Iterator<Item = Duration> {
         .map(move |thread| end.unwrap_or_default() - (thread.ended - thread.begun))
 }
 
-/// Work on the packets of a deal, each exactly once, on as many threads as it has processors; the calling
+/// Works on the tiles of a scheduler, each exactly once, on as many threads as it has processors; the calling
 /// thread is the first of them.
 ///
 /// Every thread has a state of its own, made by `start` on that thread from the thread's number; `work` gets
-/// it with each packet, and it is handed back in the order of the threads. `done` is called after each packet,
+/// it with each tile, and it is handed back in the order of the threads. `done` is called after each tile,
 /// on whichever thread.
 ///
 /// # Errors
-/// [`Error::Interrupted`] if `interrupt` was requested before the last packet was begun, [`Error::Failed`]
-/// when the system gives no more threads, or what `start` fails with; some packets are then not done.
-pub fn run_packets<S: Send>(
-    deal: &Deal,
+/// [`Error::Interrupted`] if `interrupt` was requested before the last tile was begun, [`Error::Failed`]
+/// when the system gives no more threads, or what `start` fails with; some tiles are then not done.
+pub fn run_tiles<S: Send>(
+    scheduler: &Scheduler,
     interrupt: &Interrupt,
     start: impl Fn(usize) -> Result<S, Error> + Sync,
     work: impl Fn(&mut S, usize) + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Finished<S>>, Error> {
-    let threads = deal.processors();
+    let threads = scheduler.processors();
     // Stops the threads that run when another one cannot start.
     let abandoned = Interrupt::new();
     let begin = Instant::now();
     let run = |thread: usize| {
         let mut state = start(thread).inspect_err(|_| abandoned.request())?;
-        let mut packets = 0;
+        let mut tiles = 0;
         let begun = begin.elapsed();
-        while let Some(Dealt { packet, .. }) = deal.next(thread) {
+        while let Some(Assignment { tile, .. }) = scheduler.next(thread) {
             if abandoned.requested() {
                 break;
             }
             interrupt.check()?;
-            work(&mut state, packet);
-            packets += 1;
+            work(&mut state, tile);
+            tiles += 1;
             done();
         }
         Ok(Finished {
             state,
-            packets,
+            tiles,
             begun,
             ended: begin.elapsed(),
         })
@@ -111,21 +111,21 @@ pub fn pin(thread: usize) -> Result<(), Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deal::Policy;
+    use crate::scheduler::Policy;
     use std::num::NonZeroUsize;
     use std::sync::atomic::{AtomicUsize, Ordering};
     use strum::VariantArray;
 
-    fn deal(policy: Policy, packets: usize, threads: usize) -> Deal {
-        Deal::new(policy, packets, NonZeroUsize::new(threads).unwrap(), vec![])
+    fn scheduler(policy: Policy, tiles: usize, threads: usize) -> Scheduler {
+        Scheduler::new(policy, tiles, NonZeroUsize::new(threads).unwrap(), vec![])
     }
 
     #[test]
-    fn every_packet_is_worked_on_exactly_once() {
+    fn every_tile_is_worked_on_exactly_once() {
         for policy in Policy::VARIANTS {
-            for (packets, threads) in [(0, 1), (0, 4), (1, 4), (7, 3), (64, 1), (5000, 5)] {
-                let finished = run_packets(
-                    &deal(*policy, packets, threads),
+            for (tiles, threads) in [(0, 1), (0, 4), (1, 4), (7, 3), (64, 1), (5000, 5)] {
+                let finished = run_tiles(
+                    &scheduler(*policy, tiles, threads),
                     &Interrupt::new(),
                     |_| Ok(Vec::new()),
                     Vec::push,
@@ -135,12 +135,12 @@ mod tests {
                 assert_eq!(finished.len(), threads);
                 let mut all = Vec::new();
                 for thread in finished {
-                    assert_eq!(thread.packets, thread.state.len());
+                    assert_eq!(thread.tiles, thread.state.len());
                     all.extend(thread.state);
                 }
                 all.sort_unstable();
-                let expected: Vec<_> = (0..packets).collect();
-                assert_eq!(all, expected, "{policy:?} {packets} {threads}");
+                let expected: Vec<_> = (0..tiles).collect();
+                assert_eq!(all, expected, "{policy:?} {tiles} {threads}");
             }
         }
     }
@@ -149,33 +149,33 @@ mod tests {
     fn an_idle_thread_takes_the_rest_from_a_busy_one() {
         for policy in [Policy::Dynamic, Policy::CostOrdered, Policy::WorkStealing] {
             let others = AtomicUsize::new(0);
-            let finished = run_packets(
-                &deal(policy, 40, 2),
+            let finished = run_tiles(
+                &scheduler(policy, 40, 2),
                 &Interrupt::new(),
                 |_| Ok(()),
-                |(), packet| {
-                    // The first packet lasts until all others are done.
-                    while packet == 0 && others.load(Ordering::Relaxed) < 39 {
+                |(), tile| {
+                    // The first tile lasts until all others are done.
+                    while tile == 0 && others.load(Ordering::Relaxed) < 39 {
                         thread::yield_now();
                     }
-                    others.fetch_add(usize::from(packet > 0), Ordering::Relaxed);
+                    others.fetch_add(usize::from(tile > 0), Ordering::Relaxed);
                 },
                 || {},
             )
             .unwrap();
             // That it came to an end shows that the others were not left to the busy thread.
-            let packets: usize = finished.iter().map(|thread| thread.packets).sum();
-            assert_eq!(packets, 40, "{policy:?}");
+            let tiles: usize = finished.iter().map(|thread| thread.tiles).sum();
+            assert_eq!(tiles, 40, "{policy:?}");
         }
     }
 
     #[test]
-    fn an_interrupt_ends_the_work_before_the_next_packet() {
+    fn an_interrupt_ends_the_work_before_the_next_tile() {
         for policy in Policy::VARIANTS {
             for threads in [1, 3] {
                 let (interrupt, count) = (Interrupt::new(), AtomicUsize::new(0));
-                let result = run_packets(
-                    &deal(*policy, 1000, threads),
+                let result = run_tiles(
+                    &scheduler(*policy, 1000, threads),
                     &interrupt,
                     |_| Ok(()),
                     |(), _| interrupt.request(),
@@ -191,8 +191,8 @@ mod tests {
 
     #[test]
     fn a_thread_that_cannot_start_ends_the_work() {
-        let result = run_packets(
-            &deal(Policy::Dynamic, 1000, 3),
+        let result = run_tiles(
+            &scheduler(Policy::Dynamic, 1000, 3),
             &Interrupt::new(),
             |thread| match thread {
                 1 => Err(Error::Failed("no second thread".into())),
@@ -205,10 +205,10 @@ mod tests {
     }
 
     #[test]
-    fn a_thread_is_idle_before_its_first_packet_and_after_its_last() {
+    fn a_thread_is_idle_before_its_first_tile_and_after_its_last() {
         let thread = |begun, ended| Finished {
             state: (),
-            packets: 1,
+            tiles: 1,
             begun: Duration::from_millis(begun),
             ended: Duration::from_millis(ended),
         };

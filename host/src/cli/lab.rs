@@ -51,7 +51,7 @@ impl LabCommand {
     /// [`Error::Usage`] if the arguments contradict each other; what the command fails with.
     pub fn run(self, interrupt: &Interrupt) -> Result<(), Error> {
         match self {
-            Self::Schedule(args) => octray_lab::sweep::run(&args.job()?, interrupt),
+            Self::Schedule(args) => octray_lab::schedule::run(&args.job()?, interrupt),
             Self::Measure(args) => octray_lab::measure::run(&args.job()?, interrupt),
             Self::Plan(args) => octray_lab::plan::run(&args.job()?, interrupt),
             Self::Chart(args) => octray_lab::chart::run(&args.job()?, interrupt),

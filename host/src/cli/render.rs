@@ -5,11 +5,11 @@ use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
-use octray_render::deal::Policy;
 use octray_render::error::Error;
-use octray_render::packets::Shape;
 use octray_render::picture::{RasDepth, Target};
-use octray_render::work::WorkOptions;
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::Policy;
+use octray_render::tile::TileSize;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -145,12 +145,12 @@ impl RenderArgs {
                 max_depth: self.max_depth,
                 cut_off: self.cut_off,
             },
-            work: WorkOptions {
-                threads: threads.unwrap_or(WorkOptions::default().threads),
+            work: Schedule {
+                threads: threads.unwrap_or(Schedule::default().threads),
                 policy: self.schedule,
-                packet: match (self.tile_rows, self.tile_columns) {
+                tile: match (self.tile_rows, self.tile_columns) {
                     (None, None) => None,
-                    (rows, columns) => Some(Shape {
+                    (rows, columns) => Some(TileSize {
                         rows: rows.unwrap_or(const { NonZeroU32::new(16).unwrap() }),
                         columns,
                     }),
@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(job.output.format, Format::Png);
         assert_eq!(job.ras_depth, RasDepth::Eight);
         assert_eq!(job.settings, RenderSettings::DEFAULT);
-        assert_eq!(job.work, WorkOptions::default());
+        assert_eq!(job.work, Schedule::default());
         assert_eq!(job.stats, StatsFormat::Text);
     }
 
@@ -223,10 +223,10 @@ mod tests {
             cut_off: 0.0,
         };
         assert_eq!(job.settings, settings);
-        let work = WorkOptions {
+        let work = Schedule {
             threads: NonZeroUsize::new(5).unwrap(),
             policy: Policy::WorkStealing,
-            packet: Some(Shape {
+            tile: Some(TileSize {
                 rows: NonZeroU32::new(3).unwrap(),
                 columns: NonZeroU32::new(8),
             }),
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn one_side_of_a_tile_is_enough() {
-        let shape = |line| job(line).work.packet.map(|shape| shape.to_string());
+        let shape = |line| job(line).work.tile.map(|shape| shape.to_string());
         assert_eq!(shape("a.scene"), None);
         assert_eq!(shape("a.scene --tile-rows 9").as_deref(), Some("9 rows"));
         let tiles = shape("a.scene --tile-columns 9");

@@ -103,7 +103,7 @@ pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
-/// The largest count of processors or threads, and side of a packet: no picture has more rows.
+/// The largest count of processors or threads, and side of a tile: no picture has more rows.
 pub(super) const MOST: u32 = 65_536;
 
 /// A whole number from 1 to [`MOST`].

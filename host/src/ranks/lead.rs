@@ -1,25 +1,24 @@
-//! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
+//! What the first rank does: tell the others, deal tiles, take what comes back, and trace meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
 use crate::job::RenderJob;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
+use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_core::packet::Region;
-use octray_core::scalar;
 use octray_render::cost;
-use octray_render::deal::Deal;
-use octray_render::engine;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packets::Part;
 use octray_render::picture::Picture;
 use octray_render::progress::Progress;
+use octray_render::render;
+use octray_render::render::Rendering;
+use octray_render::renderer::{self, Renderer};
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::Scheduler;
 use octray_render::stats::{Messages, Work};
-use octray_render::trace;
-use octray_render::trace::Traced;
-use octray_render::work::WorkOptions;
+use octray_render::tile::TileBuffer;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -61,31 +60,31 @@ impl<'a> Leader<'a> {
     /// Trace what the job asks for, together with the others.
     ///
     /// # Errors
-    /// As [`trace::trace`], and [`Error::Failed`] when a message makes no sense.
+    /// As [`render::render_with`], and [`Error::Failed`] when a message makes no sense.
     pub(super) fn trace(
         &mut self,
         scene: &Scene,
         job: &RenderJob,
         progress: &dyn Progress,
         interrupt: &Interrupt,
-    ) -> Result<Traced, Error> {
+    ) -> Result<Rendering, Error> {
         let begin = Instant::now();
-        let engine = engine::build(scene, &job.settings)?;
+        let renderer = renderer::prepare(scene, &job.settings)?;
         let build = begin.elapsed();
         let begin = Instant::now();
-        let (mut picture, region) = trace::blank(&*engine, job.output.holds_intensities())?;
+        let (mut picture, region) = render::blank(&*renderer, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
         // A message costs so much that smaller tiles gain nothing.
-        let shape = job.work.packet.unwrap_or(WorkOptions::TILE);
+        let shape = job.work.tile.unwrap_or(Schedule::TILE);
         let parts: Vec<_> = shape.cut(&region).collect();
-        let order = trace::order(&*engine, job.work.policy, &parts, interrupt)?;
+        let order = render::order(&*renderer, job.work.policy, &parts, interrupt)?;
         let intensities = job.output.holds_intensities();
         if parts
             .first()
             .is_some_and(|part| buffer(part, intensities).is_none())
         {
-            let why = format!("packets of {shape} are too large to be sent: choose smaller ones");
+            let why = format!("tiles of {shape} are too large to be sent: choose smaller ones");
             return Err(failed(why));
         }
         let plan = Plan {
@@ -97,31 +96,29 @@ impl<'a> Leader<'a> {
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
         // As with threads, what comes before the dealing is neither idle nor the picture's.
-        let (dealing, before) = (Instant::now(), scalar::saturations());
+        let dealing = Instant::now();
         let count = parts.len();
         progress.start(count);
-        let (counters, busy, mut messages, tallies) = {
+        let (own, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
-                deal: Deal::new(job.work.policy, count, threads, order),
+                deal: Scheduler::new(job.work.policy, count, threads, order),
                 parts,
                 picture: &mut picture,
                 progress,
                 messages: Messages::default(),
                 tallies: vec![None; ranks],
             };
-            let (counters, busy) = desk.run(&*engine, interrupt)?;
-            (counters, busy, desk.messages, desk.tallies)
+            let own = desk.run(&*renderer, interrupt)?;
+            (own, desk.messages, desk.tallies)
         };
         self.state = State::Done;
         let dealing = dealing.elapsed().as_secs_f64();
-        let own = scalar::saturations().wrapping_sub(before);
-        let own = Tally::new(&counters, own, busy);
         let (mut counters, mut saturations) = (Counters::default(), 0);
         let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
         for tally in &tallies {
             counters.add(&tally.counters());
-            saturations += u64::from(tally.saturations);
+            saturations += tally.saturations;
         }
         let busy: f64 = tallies.iter().map(|tally| tally.busy).sum();
         if busy > 0.0 && messages.count > 0 {
@@ -133,13 +130,13 @@ impl<'a> Leader<'a> {
         let work = Work {
             threads: ranks,
             schedule: job.work.policy,
-            packet: shape,
-            packets: count,
+            tile: shape,
+            tiles: count,
             messages: Some(messages),
             idle: tallies.iter().map(idle).collect(),
         };
-        let built = engine.built();
-        Ok(trace::traced(
+        let built = renderer.built();
+        Ok(render::rendering(
             built,
             picture,
             counters,
@@ -150,10 +147,10 @@ impl<'a> Leader<'a> {
     }
 }
 
-/// Where packets are handed out and taken back.
+/// Where tiles are handed out and taken back.
 struct Desk<'a> {
     world: &'a SimpleCommunicator,
-    deal: Deal,
+    deal: Scheduler,
     parts: Vec<Region>,
     picture: &'a mut Picture,
     progress: &'a dyn Progress,
@@ -163,14 +160,10 @@ struct Desk<'a> {
 }
 
 impl Desk<'_> {
-    /// Traces packets, and answers the others between them, until all have done all there is. Returns what
-    /// was counted here, and the time spent tracing.
-    fn run(
-        &mut self,
-        engine: &dyn engine::Engine,
-        interrupt: &Interrupt,
-    ) -> Result<(Counters, Duration), Error> {
-        let mut worker = engine.worker();
+    /// Traces tiles, and answers the others between them, until all have done all there is. Returns what
+    /// was done here.
+    fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Tally, Error> {
+        let mut worker = renderer.worker();
         let mut busy = Duration::ZERO;
         loop {
             interrupt.check()?;
@@ -180,13 +173,14 @@ impl Desk<'_> {
             let next = self.deal.next(0);
             if let Some(dealt) = next {
                 let begin = Instant::now();
-                let mut part = self.part(dealt.packet);
-                worker.trace(part.packet());
+                let mut part = self.part(dealt.tile);
+                worker.trace(part.tile());
                 busy += begin.elapsed();
                 self.picture.put(&part);
                 self.progress.step();
             } else if self.tallies.iter().skip(1).all(Option::is_some) {
-                return Ok((*worker.counters(), busy));
+                let (counters, saturations) = (worker.counters(), worker.saturations());
+                return Ok(Tally::new(counters, saturations, busy));
             } else {
                 pause();
             }
@@ -209,7 +203,7 @@ impl Desk<'_> {
             self.progress.step();
         }
         let next = self.deal.next(rank as usize);
-        let next = next.map_or(NONE, |dealt| dealt.packet as u32);
+        let next = next.map_or(NONE, |dealt| dealt.tile as u32);
         let to = self.world.process_at_rank(rank);
         to.send_with_tag(&next.to_le_bytes()[..], PACKET);
         self.messages.count += u64::from(tag == RESULT);
@@ -219,14 +213,14 @@ impl Desk<'_> {
     }
 
     /// A part of the picture to be filled.
-    fn part(&self, index: usize) -> Part {
-        Part::black(
+    fn part(&self, index: usize) -> TileBuffer {
+        TileBuffer::black(
             self.parts[index].clone(),
             self.picture.intensities().is_some(),
         )
     }
 
-    /// Puts a packet that was traced into the picture; `None` if it is none.
+    /// Puts a tile that was traced into the picture; `None` if it is none.
     fn keep(&mut self, bytes: &[u8]) -> Option<()> {
         let (index, pixels) = bytes.split_first_chunk()?;
         let index = u32::from_le_bytes(*index) as usize;

@@ -7,12 +7,11 @@ use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
 use mpi::topology::Process;
 use mpi::traits::{Communicator, Destination};
-use octray_core::packet::Region;
-use octray_core::scalar;
-use octray_render::engine::{self as engine, Worker};
+use octray_core::frame::Region;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packets::Part;
+use octray_render::renderer::{self, Worker};
+use octray_render::tile::TileBuffer;
 use std::time::{Duration, Instant};
 
 /// Works for the first rank until there is nothing left.
@@ -29,18 +28,17 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         return Ok(());
     };
     drop(bytes);
-    let engine = engine::build(&plan.scene, &plan.settings)?;
-    let region = engine.built().region();
+    let renderer = renderer::prepare(&plan.scene, &plan.settings)?;
+    let region = renderer.built().region();
     let parts: Vec<_> = plan.shape.cut(&region).collect();
     // The first rank has found out that there is such a buffer.
     let size = parts
         .first()
         .map_or(Some(0), |part| buffer(part, plan.intensities));
-    universe.set_buffer_size(size.ok_or_else(|| failed("a packet is too large".into()))?);
+    universe.set_buffer_size(size.ok_or_else(|| failed("a tile is too large".into()))?);
     let leader = world.process_at_rank(0);
-    let mut worker = engine.worker();
+    let mut worker = renderer.worker();
     let mut busy = Duration::ZERO;
-    let before = scalar::saturations();
     let nothing: [u8; 0] = [];
     for _ in 0..IN_HAND {
         leader.send_with_tag(&nothing[..], REQUEST);
@@ -53,21 +51,20 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
             continue;
         }
         let part = parts.get(index as usize);
-        let part = part.ok_or_else(|| failed(format!("there is no packet {index}")))?;
+        let part = part.ok_or_else(|| failed(format!("there is no tile {index}")))?;
         let begin = Instant::now();
         let message = trace(&mut *worker, index, part, plan.intensities);
         busy += begin.elapsed();
         // A plain send of more than some 256 bytes lasts until the first rank looks for messages.
         leader.buffered_send_with_tag(&message[..], RESULT);
     }
-    let saturations = scalar::saturations().wrapping_sub(before);
-    let tally = Tally::new(worker.counters(), saturations, busy);
+    let tally = Tally::new(worker.counters(), worker.saturations(), busy);
     let bytes = postcard::to_stdvec(&tally).map_err(|cause| failed(cause.to_string()))?;
     leader.send_with_tag(&bytes[..], TALLY);
     Ok(())
 }
 
-/// The number of the next packet, or [`NONE`], as soon as it comes.
+/// The number of the next tile, or [`NONE`], as soon as it comes.
 fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
     loop {
         interrupt.check()?;
@@ -83,10 +80,10 @@ fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
     }
 }
 
-/// A packet traced: its number, its levels and its intensities if they are wanted.
+/// A tile traced: its number, its levels and its intensities if they are wanted.
 fn trace(worker: &mut dyn Worker, index: u32, part: &Region, intensities: bool) -> Vec<u8> {
-    let mut part = Part::black(part.clone(), intensities);
-    worker.trace(part.packet());
+    let mut part = TileBuffer::black(part.clone(), intensities);
+    worker.trace(part.tile());
     let mut message = index.to_le_bytes().to_vec();
     message.extend_from_slice(part.levels.as_flattened());
     for value in part.intensities.iter().flatten().flatten() {

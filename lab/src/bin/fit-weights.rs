@@ -10,9 +10,9 @@ use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_prepare::RenderSettings;
 use octray_render::cost::{self, EVENTS, NAMES, WEIGHTS};
-use octray_render::engine::{self as engine, Worker};
-use octray_render::packet::Packet;
-use octray_render::packets::{Part, Shape};
+use octray_render::renderer::{self, Worker};
+use octray_render::tile::Tile;
+use octray_render::tile::{TileBuffer, TileSize};
 use octray_scenes::generate::{Kind, Spec, generate};
 use octray_scenes::model::Scene;
 use std::error::Error;
@@ -59,12 +59,12 @@ fn trace() -> Result<(), Box<dyn Error>> {
         ..RenderSettings::DEFAULT
     };
     for (name, scene) in scenes()? {
-        let engine = engine::build(&scene, &settings)?;
-        let region = engine.built().region();
-        for strip in Shape::strip(ROWS).cut(&region) {
-            let mut part = Part::black(strip, false);
-            let mut worker = engine.worker();
-            trace_a_strip(&mut *worker, part.packet());
+        let renderer = renderer::prepare(&scene, &settings)?;
+        let region = renderer.built().region();
+        for strip in TileSize::strip(ROWS).cut(&region) {
+            let mut part = TileBuffer::black(strip, false);
+            let mut worker = renderer.worker();
+            trace_a_strip(&mut *worker, part.tile());
             let events = cost::events(worker.counters()).map(|count| count.to_string());
             println!("{name} {}", events.join(" "));
         }
@@ -74,8 +74,8 @@ fn trace() -> Result<(), Box<dyn Error>> {
 
 /// What Callgrind looks for: it counts what happens in here, and dumps it on return.
 #[inline(never)]
-fn trace_a_strip(worker: &mut dyn Worker, packet: Packet<'_>) {
-    black_box(worker).trace(black_box(packet));
+fn trace_a_strip(worker: &mut dyn Worker, tile: Tile<'_>) {
+    black_box(worker).trace(black_box(tile));
 }
 
 /// The scenes to learn from, by name.

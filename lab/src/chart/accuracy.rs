@@ -4,13 +4,13 @@ use super::ChartJob;
 use super::setting::Setting;
 use octray_prepare::format::Format;
 use octray_prepare::{Arith, RenderSettings};
-use octray_render::engine::{self as engine, Engine, FirstHit};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::picture::Picture;
-use octray_render::trace;
-use octray_render::work::WorkOptions;
+use octray_render::render::render_tiles;
+use octray_render::renderer::{self, FirstHit, Renderer};
+use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 
 /// How far off a picture is.
@@ -60,7 +60,7 @@ pub struct Judge<'a> {
 struct Exact {
     setting: RenderSettings,
     picture: Picture,
-    engine: Box<dyn Engine>,
+    renderer: Box<dyn Renderer>,
 }
 
 /// Bounces of the converged picture, and the weight below which a ray is not traced: a thirtieth of a level. Without
@@ -82,11 +82,11 @@ impl<'a> Judge<'a> {
             samples: job.converged_samples,
             ..RenderSettings::DEFAULT
         };
-        let engine = build(scene, &converged)?;
+        let renderer = build(scene, &converged)?;
         Ok(Self {
             scene,
             interrupt,
-            converged: render(&*engine, interrupt)?,
+            converged: render(&*renderer, interrupt)?,
             exact: Vec::new(),
         })
     }
@@ -100,18 +100,18 @@ impl<'a> Judge<'a> {
         &mut self,
         setting: &RenderSettings,
     ) -> Result<Result<Accuracy, String>, Error> {
-        let engine = match build(self.scene, setting) {
+        let renderer = match build(self.scene, setting) {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,
         };
-        let picture = render(&*engine, self.interrupt)?;
+        let picture = render(&*renderer, self.interrupt)?;
         let converged = Difference::between(&self.converged, &picture)?;
         let exact = self.exact(setting.in_f64())?;
         Ok(Ok(Accuracy {
-            format: engine.built().format,
+            format: renderer.built().format,
             same: Difference::between(&exact.picture, &picture)?,
             converged,
-            sight: sight(&*exact.engine, &*engine, setting.samples),
+            sight: sight(&*exact.renderer, &*renderer, setting.samples),
         }))
     }
 
@@ -121,11 +121,11 @@ impl<'a> Judge<'a> {
         let index = match known {
             Some(index) => index,
             None => {
-                let engine = build(self.scene, &setting)?;
+                let renderer = build(self.scene, &setting)?;
                 self.exact.push(Exact {
                     setting,
-                    picture: render(&*engine, self.interrupt)?,
-                    engine,
+                    picture: render(&*renderer, self.interrupt)?,
+                    renderer,
                 });
                 self.exact.len() - 1
             }
@@ -135,21 +135,21 @@ impl<'a> Judge<'a> {
 }
 
 /// The scene made ready to be traced.
-pub(super) fn build(scene: &Scene, setting: &RenderSettings) -> Result<Box<dyn Engine>, Error> {
-    Ok(engine::build(scene, setting)?)
+pub(super) fn build(scene: &Scene, setting: &RenderSettings) -> Result<Box<dyn Renderer>, Error> {
+    Ok(renderer::prepare(scene, setting)?)
 }
 
 /// The picture.
-fn render(engine: &dyn Engine, interrupt: &Interrupt) -> Result<Picture, Error> {
-    let work = WorkOptions::default();
-    let rendered = trace::render(engine, &work, false, &(), interrupt)?;
+fn render(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Picture, Error> {
+    let work = Schedule::default();
+    let rendered = render_tiles(renderer, &work, false, &(), interrupt)?;
     Ok(rendered.0)
 }
 
 /// What the rays of two pictures with the same settings meet first.
-fn sight(exact: &dyn Engine, engine: &dyn Engine, samples: u32) -> Sight {
-    let built = engine.built();
-    let (mut truth, mut seen) = (exact.worker(), engine.worker());
+fn sight(exact: &dyn Renderer, renderer: &dyn Renderer, samples: u32) -> Sight {
+    let built = renderer.built();
+    let (mut truth, mut seen) = (exact.worker(), renderer.worker());
     let (mut blocks, mut others, mut depth) = (0_u64, 0_u64, 0.0_f64);
     let per_block = (samples * samples) as usize;
     for row in (0..built.size.1).step_by(built.block as usize) {

@@ -5,7 +5,7 @@ use crate::measure::child::{self, Ended};
 use octray_prepare::RenderSettings;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::trace::TRACING;
+use octray_render::render::TRACING;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -11,11 +11,11 @@ use crate::measure::job::{BuildOptions, Goal, MeasureJob};
 use crate::measure::workspace::Workspace;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
 use octray_render::cost;
-use octray_render::engine::Engine;
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
+use octray_render::renderer::Renderer;
 use octray_scenes::model::Scene;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -199,9 +199,9 @@ impl<'a> Meter<'a> {
             .collect::<Result<_, _>>()?;
         let mut times = vec![Vec::new(); engines.len()];
         for _ in 0..self.job.rounds.get() {
-            for (engine, times) in engines.iter().zip(&mut times) {
+            for (renderer, times) in engines.iter().zip(&mut times) {
                 self.interrupt.check()?;
-                times.push(time(&**engine));
+                times.push(time(&**renderer));
             }
         }
         engines.iter().for_each(|_| progress.step());
@@ -257,16 +257,16 @@ impl<'a> Meter<'a> {
 }
 
 fn events(scene: &Scene, setting: &RenderSettings) -> Result<f64, Error> {
-    let engine = build(scene, setting)?;
-    let mut worker = engine.worker();
-    worker.probe(&engine.built().active);
+    let renderer = build(scene, setting)?;
+    let mut worker = renderer.worker();
+    worker.probe(&renderer.built().active);
     Ok(cost::cost(worker.counters()))
 }
 
-fn time(engine: &dyn Engine) -> f64 {
-    let mut worker = engine.worker();
+fn time(renderer: &dyn Renderer) -> f64 {
+    let mut worker = renderer.worker();
     let begin = Instant::now();
-    worker.probe(&engine.built().active);
+    worker.probe(&renderer.built().active);
     begin.elapsed().as_secs_f64()
 }
 

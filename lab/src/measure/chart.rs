@@ -114,7 +114,7 @@ impl Chart<'_> {
             let y = floor - height(10f64.powi(decade));
             let line = [(LEFT, y), (right, y)];
             area.draw(&PathElement::new(line, RGBColor(200, 200, 200)))?;
-            let label = octray_render::facts::thousands(10u64.pow(decade.max(0) as u32));
+            let label = octray_render::counts::thousands(10u64.pow(decade.max(0) as u32));
             write(area, &label, (LEFT - 6, y - 7), 13, HPos::Right)?;
         }
         for (g, scene) in self.scenes.iter().enumerate() {

@@ -85,6 +85,7 @@ fn failure(ended: Ended, told: &str, patience: Duration) -> Option<String> {
         Ended::Exited { code: 101 } => "panicked".into(),
         Ended::Exited { code: 102 } => "trapped".into(),
         Ended::Exited { code: 103 } => "stack overflow".into(),
+        Ended::Exited { code: 104 } => format!("too little room: {}", last_line(told)),
         Ended::Exited { code } => format!("exit code {code}: {}", last_line(told)),
         Ended::Killed => format!("crashed: {}", fatal_line(told)),
         Ended::Late => format!("no end within {} s", patience.as_secs()),
@@ -133,6 +134,12 @@ mod tests {
         assert_eq!(why(Ended::Exited { code: 101 }), "panicked");
         assert_eq!(why(Ended::Exited { code: 102 }), "trapped");
         assert_eq!(why(Ended::Exited { code: 103 }), "stack overflow");
+        let dropped = failure(
+            Ended::Exited { code: 104 },
+            "hash 1\ndropped 3\n",
+            Duration::ZERO,
+        );
+        assert_eq!(dropped.as_deref(), Some("too little room: dropped 3"));
         assert_eq!(why(Ended::Exited { code: 1 }), "exit code 1: last");
         assert_eq!(why(Ended::Killed), "crashed: last");
         assert_eq!(why(Ended::Late), "no end within 9 s");

@@ -120,7 +120,7 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
             let variables = [
                 ("OCTRAY_SCENE", "firmware-sim/kernels.scene"),
                 ("OCTRAY_ARITH", arith.name()),
-                ("OCTRAY_TREE", "packed"),
+                ("OCTRAY_TREE", "compact-bvh8"),
                 // As many nodes as there can be.
                 ("OCTRAY_LEAF_SIZE", "1"),
             ];

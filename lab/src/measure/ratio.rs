@@ -4,7 +4,7 @@
 use super::row::Row;
 use super::table::{left, table};
 use octray_prepare::Arith;
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
 /// Boards of one core each: without and with the use of its floating-point unit.
 pub const CORES: [(&str, &str); 2] = [("m4", "m4f"), ("rv32imac", "rv32imafc")];

@@ -5,8 +5,8 @@ use octray_prepare::{Arith, RenderSettings, TreeSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
-use octray_render::trace::{Traced, trace};
-use octray_render::work::WorkOptions;
+use octray_render::render::{Rendering, render_with};
+use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 
@@ -14,7 +14,7 @@ use std::num::NonZeroUsize;
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Picture, rays, format.
-    pub traced: Traced,
+    pub traced: Rendering,
     /// Its distance from the picture in `f64`, in dB; infinite if they are equal.
     pub psnr: f64,
 }
@@ -28,7 +28,7 @@ impl Reference {
         scene: &Scene,
         arith: Arith,
         settings: &RenderSettings,
-        exact: &Traced,
+        exact: &Rendering,
         interrupt: &Interrupt,
     ) -> Result<Self, Error> {
         let traced = render(scene, arith, settings, interrupt)?;
@@ -40,21 +40,21 @@ impl Reference {
 /// The picture with the settings but in this arithmetic and with the default tree, on one thread.
 ///
 /// # Errors
-/// As [`trace`].
+/// As [`render_with`].
 pub fn render(
     scene: &Scene,
     arith: Arith,
     settings: &RenderSettings,
     interrupt: &Interrupt,
-) -> Result<Traced, Error> {
+) -> Result<Rendering, Error> {
     let settings = RenderSettings {
         arith,
         tree: TreeSettings::default(),
         ..*settings
     };
-    let work = WorkOptions {
+    let work = Schedule {
         threads: NonZeroUsize::MIN,
-        ..WorkOptions::default()
+        ..Schedule::default()
     };
-    trace(scene, &settings, &work, false, &(), interrupt)
+    render_with(scene, &settings, &work, false, &(), interrupt)
 }

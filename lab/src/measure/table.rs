@@ -1,13 +1,12 @@
 //! The results as a table to read.
 
-use super::ratio;
 use super::row::{Cost, Row};
 use comfy_table::{CellAlignment, Table, presets};
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
-/// The table, and the costliest functions of each row.
-pub fn text(rows: &[Row], functions: usize) -> String {
-    let mut text = frames(rows) + &ratio::text(rows);
+/// The table, what follows it, and the costliest functions of each row.
+pub fn text(rows: &[Row], below: &str, functions: usize) -> String {
+    let mut text = frames(rows) + below;
     for row in rows.iter().filter(|_| functions > 0) {
         let Some(all) = row.instructions() else {
             continue;
@@ -120,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_failure_stands_where_numbers_would() {
-        let text = text(&rows(), 0);
+        let text = text(&rows(), "", 0);
         let last = text.lines().last().unwrap();
         assert!(last.contains("| stack overflow "), "{text}");
         assert!(!last.contains("55,"), "{text}");
@@ -128,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_costliest_functions_are_told_if_asked_for() {
-        let text = text(&rows(), 1);
+        let text = text(&rows(), "", 1);
         assert!(text.contains("figure-22 m3 auto\n   44.9 %       25,000,000  f\n"));
         assert!(!text.contains("  g"), "{text}");
     }

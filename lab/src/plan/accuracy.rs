@@ -3,7 +3,7 @@
 
 use super::events::{Events, Probe};
 use super::job::Numbers;
-use octray_core::octree::{self, PACKED_DEPTH};
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_prepare::format::{Family, Format};
 use octray_prepare::plan::{Plan, fingerprint};
 use octray_prepare::quantise::{Bound, bounds};
@@ -17,8 +17,8 @@ use serde::Serialize;
 use strum::VariantArray;
 
 /// The tree that pictures are compared with; all trees give the same.
-const TREE: octree::Options = octree::Options {
-    depth: PACKED_DEPTH,
+const TREE: accel::BuildOptions = accel::BuildOptions {
+    depth: COMPACT_MAX_DEPTH,
     leaf_size: 2,
 };
 

@@ -5,7 +5,7 @@ use super::events::{Events, Probe};
 use super::job::Bounds;
 use super::model::{Family, Model, Parts, Prediction, Weights};
 use crate::measure::board::Board;
-use octray_core::octree::{Options, PACKED_DEPTH};
+use octray_core::accel::{BuildOptions, COMPACT_MAX_DEPTH};
 use octray_prepare::Format;
 use octray_prepare::bake::{Baked, bake};
 use octray_prepare::plan::Plan;
@@ -81,7 +81,7 @@ impl Chooser<'_> {
     fn trees(&self, plan: &Plan, all: &mut Vec<Candidate>) -> Result<(), Error> {
         let first = all.len();
         let packed = |depth, leaf_size| Plan {
-            tree: Some(Options { depth, leaf_size }),
+            tree: Some(BuildOptions { depth, leaf_size }),
             ..plan.clone()
         };
         let objects = self.scope.scene.objects.len();
@@ -96,11 +96,11 @@ impl Chooser<'_> {
             .into_iter()
             .filter(|size| *size as usize <= objects.max(1))
         {
-            all.push(self.candidate(packed(PACKED_DEPTH, leaf_size))?);
+            all.push(self.candidate(packed(COMPACT_MAX_DEPTH, leaf_size))?);
         }
         // Shallower trees of the leaf size that is best.
         let best = cheapest(&all[first..]).map(|best| best.plan.tree);
-        if let Some(Some(Options { depth, leaf_size })) = best {
+        if let Some(Some(BuildOptions { depth, leaf_size })) = best {
             for depth in (1..depth).rev() {
                 let shallow = self.candidate(packed(depth, leaf_size))?;
                 let dear = cheapest(&all[first..])

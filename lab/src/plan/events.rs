@@ -1,18 +1,20 @@
 //! What happens while a frame is traced, counted on the host: what instructions are predicted from.
 
-use super::model::ROWS;
-use octray_core::observe::{Counters, RayKind, Searches};
+use octray_core::observe::{Counters, QueryCounts, RayKind};
 use octray_prepare::plan::Plan;
-use octray_render::deal::Policy;
-use octray_render::engine::{self as engine, Engine};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_render::packets::Shape;
 use octray_render::picture::Picture;
-use octray_render::trace;
-use octray_render::work::WorkOptions;
+use octray_render::render;
+use octray_render::renderer::{self, Renderer};
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::Policy;
+use octray_render::tile::TileSize;
 use octray_scenes::model::Scene;
 use std::num::NonZeroU32;
+
+/// Rows of the strip that firmware renders at a time.
+pub const ROWS: usize = 4;
 
 /// How many events of a search there are.
 pub const OF_SEARCH: usize = 17;
@@ -65,7 +67,7 @@ impl Events {
         let shadow = rays(RayKind::Shadow);
         let [primary, reflected, transmitted] =
             [RayKind::Primary, RayKind::Reflected, RayKind::Transmitted].map(rays);
-        let search = |search: &Searches, closest: f64, shadow: f64| {
+        let search = |search: &QueryCounts, closest: f64, shadow: f64| {
             let mut events = [0.0; OF_SEARCH];
             events[..4].copy_from_slice(&[
                 closest,
@@ -80,7 +82,7 @@ impl Events {
             }
             events
         };
-        let [closest, blocking] = &counters.searches;
+        let [closest, blocking] = &counters.queries;
         let hits = counters.hits.iter().sum::<u64>() as f64;
         // Which of the objects met was the closest is not counted: each kind has its share.
         let met = closest.met.iter().sum::<u64>().max(1) as f64;
@@ -140,30 +142,30 @@ impl Probe {
     /// # Errors
     /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`].
     pub fn render(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Self, Error> {
-        let engine = engine::build(scene, &plan.settings())?;
-        Self::trace(&*engine, scene, interrupt)
+        let renderer = renderer::prepare(scene, &plan.settings())?;
+        Self::trace(&*renderer, scene, interrupt)
     }
 
-    fn trace(engine: &dyn Engine, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {
+    fn trace(renderer: &dyn Renderer, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {
         // As the firmware cuts the picture, which forgets between strips what blocked the lights.
-        let work = WorkOptions {
+        let work = Schedule {
             policy: Policy::Dynamic,
-            packet: Some(Shape::strip(
+            tile: Some(TileSize::strip(
                 const { NonZeroU32::new(ROWS as u32).unwrap() },
             )),
-            ..WorkOptions::default()
+            ..Schedule::default()
         };
-        let traced = trace::render(engine, &work, false, &(), interrupt)?;
+        let traced = render::render_tiles(renderer, &work, false, &(), interrupt)?;
         let (picture, counters, _, saturations) = traced;
-        let built = engine.built();
+        let built = renderer.built();
         Ok(Self {
             picture,
             events: Events::new(&counters, scene.lights.len()),
             waiting: counters.deepest as usize,
             saturations,
             too_fine: built.too_fine.clone(),
-            nodes: built.octree.nodes,
-            depth: built.octree.depth,
+            nodes: built.tree.nodes,
+            depth: built.tree.depth,
             scale: built.scale,
         })
     }

@@ -62,7 +62,7 @@ fn weights(target: &str, family: Family, samples: &[&Sample]) -> Weights {
         search.push((sample.events.search[1], shadow));
         rest.push((sample.events.rest, line.instructions - closest - shadow));
     }
-    let parts = |sample: &Sample| code(sample.baked.needs, sample.tree);
+    let parts = |sample: &Sample| code(sample.baked.features, sample.tree);
     let code: Vec<_> = (samples.iter())
         .map(|s| (parts(s), s.line.flash - s.baked.bytes as f64))
         .collect();

@@ -3,10 +3,10 @@
 //!
 //! `cargo bench -p octray --bench plan` measures frames on emulated boards and fits the weights.
 
-use super::events::{Events, NAMES, OF_REST, OF_SEARCH};
-use octray_core::needs::{self, Needs};
-use octray_core::octree::Options;
-use octray_core::trace::Pending;
+use super::events::{Events, NAMES, OF_REST, OF_SEARCH, ROWS};
+use octray_core::accel::BuildOptions;
+use octray_core::features::{self, FeatureSet};
+use octray_core::trace::QueuedRay;
 use octray_prepare::bake::Baked;
 use octray_prepare::format::{self, Format};
 use octray_prepare::plan::Plan;
@@ -52,39 +52,40 @@ pub struct Parts {
     /// The nodes that wait.
     pub nodes: usize,
     /// What blocked each light last.
-    pub blockers: usize,
+    pub shadow_cache: usize,
 }
-
-/// Rows of the firmware's strip.
-pub const ROWS: usize = 4;
 
 impl Parts {
     /// Of a baked plan with so many lights.
     pub fn of(plan: &Plan, baked: &Baked, lights: usize) -> Self {
         Self {
             strip: plan.size.0 as usize * ROWS * 3,
-            rays: baked.rays * size_of::<Pending<f32>>(),
+            rays: baked.rays * size_of::<QueuedRay<f32>>(),
             nodes: baked.nodes * 4,
-            blockers: lights * 8,
+            shadow_cache: lights * 8,
         }
     }
 
     /// All of them.
     pub fn total(&self) -> usize {
-        self.strip + self.rays + self.nodes + self.blockers
+        self.strip + self.rays + self.nodes + self.shadow_cache
     }
 }
 
 /// What code is made of: something always, something for each need, and a tree's walk.
-pub const OF_CODE: usize = 2 + needs::NAMES.len();
+pub const OF_CODE: usize = 2 + features::NAMES.len();
 
 /// What of it a scene needs.
-pub fn code(set: Needs, tree: Option<Options>) -> [f64; OF_CODE] {
+pub fn code(set: FeatureSet, tree: Option<BuildOptions>) -> [f64; OF_CODE] {
     let mut parts = [0.0; OF_CODE];
     parts[0] = 1.0;
     parts[1] = if tree.is_none() { 0.0 } else { 1.0 };
-    for (part, (_, what)) in parts[2..].iter_mut().zip(needs::NAMES) {
-        *part = if needs::needs(set, what) { 1.0 } else { 0.0 };
+    for (part, (_, what)) in parts[2..].iter_mut().zip(features::NAMES) {
+        *part = if features::contains(set, what) {
+            1.0
+        } else {
+            0.0
+        };
     }
     parts
 }
@@ -164,14 +165,14 @@ impl Weights {
         &self,
         events: &Events,
         baked: &Baked,
-        tree: Option<Options>,
+        tree: Option<BuildOptions>,
         lent: Parts,
     ) -> Prediction {
         Prediction {
             instructions: self.instructions(events).iter().sum(),
-            code: sum(&code(baked.needs, tree), &self.code),
+            code: sum(&code(baked.features, tree), &self.code),
             tables: baked.bytes,
-            frames: sum(&code(baked.needs, tree), &self.frames),
+            frames: sum(&code(baked.features, tree), &self.frames),
             lent,
         }
     }
@@ -181,7 +182,7 @@ impl Weights {
         let parts = || {
             ["all", "tree"]
                 .into_iter()
-                .chain(needs::NAMES.map(|(name, _)| name))
+                .chain(features::NAMES.map(|(name, _)| name))
         };
         let code = parts().map(|part| format!("code of {part}"));
         let frames = parts().map(|part| format!("frames of {part}"));

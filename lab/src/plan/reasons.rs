@@ -2,13 +2,12 @@
 
 use super::accuracy::Accuracy;
 use super::choice::{Candidate, cheapest};
-use super::events::Events;
-use super::model::ROWS;
-use super::report::{Cheaper, Decision, decibels};
-use octray_core::needs;
+use super::decision::{Cheaper, Decision, decibels};
+use super::events::{Events, ROWS};
+use octray_core::features;
 use octray_prepare::PixelsPerRay;
 use octray_prepare::TreeKind;
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 
 /// How often rays bounce; `less` tells by how much of themselves the plan's instructions grow with other events.
 pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {
@@ -156,12 +155,12 @@ pub(super) fn capacities(chosen: &Candidate) -> Decision {
         about: "capacities",
         chosen: format!("{rays} waiting, {} words of tree", chosen.baked.words),
         why: format!(
-            "as many as ever wait; bytes of RAM: strip of {} rows {}, rays {}, walk of the tree {}, blockers {}",
+            "as many as ever wait; bytes of RAM: strip of {} rows {}, rays {}, walk of the tree {}, shadow cache {}",
             ROWS,
             thousands(lent.strip as u64),
             lent.rays,
             lent.nodes,
-            lent.blockers,
+            lent.shadow_cache,
         ),
         cheaper: None,
     }
@@ -169,9 +168,11 @@ pub(super) fn capacities(chosen: &Candidate) -> Decision {
 
 /// What code is linked, by what a part of it takes.
 pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
-    let has = |what| needs::needs(chosen.baked.needs, what);
+    let has = |what| features::contains(chosen.baked.features, what);
     let names = |wanted: bool| {
-        let names = needs::NAMES.iter().filter(|(_, what)| has(*what) == wanted);
+        let names = features::NAMES
+            .iter()
+            .filter(|(_, what)| has(*what) == wanted);
         let names: Vec<_> = names.map(|(name, _)| name.to_lowercase()).collect();
         if names.is_empty() {
             "nothing".into()
@@ -180,7 +181,7 @@ pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
         }
     };
     // The first two are the code that there always is, and the tree's.
-    let absent = needs::NAMES
+    let absent = features::NAMES
         .iter()
         .zip(&weights[2..])
         .filter(|((_, what), _)| !has(*what));

@@ -4,7 +4,7 @@ use super::comb::comb;
 use super::events::{Events, Probe};
 use super::model::{Family, Parts, Weights};
 use crate::measure::board::{BOARDS, Board};
-use octray_core::octree::Options;
+use octray_core::accel::BuildOptions;
 use octray_prepare::bake::{BakeOptions, Baked, bake};
 use octray_prepare::choice::Choice;
 use octray_prepare::plan::{Plan, fingerprint};
@@ -68,7 +68,7 @@ pub struct Sample {
     /// What was counted.
     pub events: Events,
     /// How its tree is built, if there is one.
-    pub tree: Option<Options>,
+    pub tree: Option<BuildOptions>,
     /// What was baked.
     pub baked: Baked,
     /// How much memory it takes besides code and frames of functions.

@@ -1,7 +1,8 @@
 //! What would fit, where a plan does not.
 
+use super::decision::Cost;
 use super::job::{Bounds, PlanJob};
-use super::report::{Cost, Report};
+use super::report::Report;
 use octray_render::error::Error;
 
 /// Options with which the scene of a plan that takes too much fits, each text enough alone: as much memory as it

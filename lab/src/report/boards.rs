@@ -6,8 +6,8 @@ use crate::tables::record::{self, Row};
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 
 /// Table III today, and what programs need.
 ///

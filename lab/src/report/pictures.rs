@@ -6,13 +6,13 @@ use crate::measure::frames::Named;
 use crate::measure::reference;
 use maud::{Markup, html};
 use octray_prepare::{Arith, RenderSettings};
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 use octray_render::heat;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::progress::Progress;
-use octray_render::trace::Traced;
+use octray_render::render::Rendering;
 use std::path::Path;
 
 /// The section of a scene, the `index`th.
@@ -91,7 +91,7 @@ fn commands(name: &str, path: &Path, (width, height): (u32, u32), shown: &[&str]
 }
 
 /// The picture, its map, and how far off it is.
-fn figure(arith: Arith, traced: &Traced, exact: &Traced) -> Result<Markup, Error> {
+fn figure(arith: Arith, traced: &Rendering, exact: &Rendering) -> Result<Markup, Error> {
     let difference = Difference::between(&exact.picture, &traced.picture)?;
     let share = 100.0 * difference.beyond_1 as f64 / difference.pixels.max(1) as f64;
     let arith = arith.with_format(Some(traced.format));

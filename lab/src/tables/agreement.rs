@@ -1,12 +1,12 @@
 //! Whether the figures' rays are as many as in the thesis's table II.
 
-use super::lab::Lab;
 use super::number::Number;
+use super::runs::Runs;
 use super::subject::{FIGURES, Trial};
 use super::table::Quantity;
 use super::thesis::{Datum, Thesis};
+use octray_render::counts::thousands;
 use octray_render::error::Error;
-use octray_render::facts::thousands;
 use octray_render::stats::Rays;
 
 /// Reflected rays, which have to agree within 5 %.
@@ -19,8 +19,8 @@ pub const BLOCKED: Quantity = Quantity::rays("blocked light tests", 0.15);
 /// the scene's first lights comes nearest. One sentence if no count is at hand.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn notes(lab: &Lab<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
+/// As [`Runs::tally`].
+pub fn notes(runs: &Runs<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
     let of_rays = |datum: &&Datum| !datum.is_ratio() && count_of(datum).is_some();
     let data: Vec<&Datum> = thesis.of(Number::Two).filter(of_rays).collect();
     if data.is_empty() {
@@ -30,7 +30,7 @@ pub fn notes(lab: &Lab<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
                 .into(),
         ]);
     }
-    let notes = data.into_iter().map(|datum| nearest(lab, datum));
+    let notes = data.into_iter().map(|datum| nearest(runs, datum));
     Ok(notes
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
@@ -53,7 +53,7 @@ fn count_of(datum: &Datum) -> Option<(Count, f64)> {
 }
 
 /// What comes nearest to a count of the thesis; `None` if ours agrees, or there is none of ours.
-fn nearest(lab: &Lab<'_>, datum: &Datum) -> Result<Option<String>, Error> {
+fn nearest(runs: &Runs<'_>, datum: &Datum) -> Result<Option<String>, Error> {
     let subject = FIGURES
         .into_iter()
         .find(|subject| subject.name == datum.scene);
@@ -65,7 +65,7 @@ fn nearest(lab: &Lab<'_>, datum: &Datum) -> Result<Option<String>, Error> {
     let all = subject.scene()?.lights.len();
     let with = |lights| {
         let trial = Trial::of(subject).with_lights(lights, all);
-        Ok::<_, Error>((lights, count(&lab.tally(trial)?.rays)))
+        Ok::<_, Error>((lights, count(&runs.tally(trial)?.rays)))
     };
     let off = |ours: u64| (ours as f64 / datum.value - 1.0).abs();
     if (1..=all).contains(&stated) && off(with(stated)?.1) <= within {
@@ -97,13 +97,13 @@ mod tests {
     #[test]
     fn the_nearest_light_set_is_found_where_the_stated_one_is_not_near() {
         let interrupt = Interrupt::new();
-        let lab = Lab::new(Some((64, 64)), false, &interrupt);
+        let runs = Runs::new(Some((64, 64)), false, &interrupt);
         let blocked = |lights| {
             let trial = Trial {
                 lights: Some(lights),
                 ..Trial::of(FIGURES[1])
             };
-            lab.tally(trial).unwrap().rays.blocked
+            runs.tally(trial).unwrap().rays.blocked
         };
         let (three, ten) = (blocked(3), blocked(10));
         let lines = format!(
@@ -111,7 +111,7 @@ mod tests {
              II,figure-20,9,blocked light tests,,{three},,\n\
              II,figure-20,9,time,,1,minutes,"
         );
-        let notes = notes(&lab, &thesis(&lines).unwrap()).unwrap();
+        let notes = notes(&runs, &thesis(&lines).unwrap()).unwrap();
         let three = thousands(three);
         let expected = format!(
             "figure-20, blocked light tests: the thesis has {three} with 9 lights. Of ours, the first 3 come \
@@ -123,8 +123,8 @@ mod tests {
     #[test]
     fn that_nothing_is_known_is_told() {
         let interrupt = Interrupt::new();
-        let lab = Lab::new(Some((8, 8)), false, &interrupt);
-        let notes = notes(&lab, &Thesis::default()).unwrap();
+        let runs = Runs::new(Some((8, 8)), false, &interrupt);
+        let notes = notes(&runs, &Thesis::default()).unwrap();
         assert!(notes[0].contains("is not known"), "{notes:?}");
     }
 }

@@ -1,10 +1,10 @@
-//! The thesis's figures 24 and 25 as charts, a panel for each scene: time against the rows of a packet, and
+//! The thesis's figures 24 and 25 as charts, a panel for each scene: time against the rows of a tile, and
 //! speed-up against processors, static and dynamic. Readable without colour.
 
 use super::shared::{Outcomes, POLICIES, Simulation};
 use crate::canvas::{Area, Drawn, Figure, write};
 use crate::simulate::Outcome;
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
@@ -75,7 +75,7 @@ impl<'a> Chart<'a> {
         let processors = simulation.processors;
         Self {
             title: format!(
-                "Figure 24: time against H, the rows of a packet, on {processors} processors"
+                "Figure 24: time against H, the rows of a tile, on {processors} processors"
             ),
             across: "H",
             upwards: "time, M instructions",
@@ -89,7 +89,7 @@ impl<'a> Chart<'a> {
     pub fn of_processors(outcomes: &'a Outcomes, simulation: &Simulation) -> Self {
         let rows = simulation.rows;
         Self {
-            title: format!("Figure 25: speed-up against processors, in packets of H = {rows} rows"),
+            title: format!("Figure 25: speed-up against processors, in tiles of H = {rows} rows"),
             across: "processors",
             upwards: "speed-up",
             value: |outcome| outcome.speed_up,

@@ -49,7 +49,7 @@ pub enum Number {
     #[strum(serialize = "VII")]
     #[serde(rename = "VII")]
     Seven,
-    /// Time against the rows of a packet, static and dynamic.
+    /// Time against the rows of a tile, static and dynamic.
     #[strum(serialize = "VIII")]
     #[serde(rename = "VIII")]
     Eight,
@@ -85,7 +85,7 @@ impl Number {
             Self::Five => "the number of surfaces",
             Self::Six => "the resolution",
             Self::Seven => "pixels per ray",
-            Self::Eight => "time against H, the rows of a packet",
+            Self::Eight => "time against H, the rows of a tile",
             Self::Nine => "speed-up against processors",
         }
     }

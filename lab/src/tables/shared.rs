@@ -1,18 +1,18 @@
 //! The tables of how processors share a picture: VIII and IX, simulated.
 
-use super::lab::Lab;
 use super::number::Number;
+use super::runs::Runs;
 use super::subject::FIGURES;
 use super::table::{Base, Draft, DraftLine, Quantity};
 use crate::simulate::{Machine, Outcome, simulate};
-use octray_core::packet::Region;
+use octray_core::frame::Region;
 use octray_render::cost::CostMap;
-use octray_render::deal::{Deal, Policy};
 use octray_render::error::Error;
-use octray_render::packets::Shape;
+use octray_render::scheduler::{Policy, Scheduler};
+use octray_render::tile::TileSize;
 use std::num::{NonZeroU32, NonZeroUsize};
 
-/// Rows of a packet in table VIII, H in the thesis.
+/// Rows of a tile in table VIII, H in the thesis.
 pub const ROWS: [u32; 8] = [2, 4, 8, 16, 32, 64, 128, 256];
 
 /// Numbers of processors in table IX.
@@ -26,7 +26,7 @@ pub const POLICIES: [Policy; 2] = [Policy::Static, Policy::Dynamic];
 pub struct Simulation {
     /// The processors of table VIII.
     pub processors: NonZeroU32,
-    /// The rows of a packet in table IX.
+    /// The rows of a tile in table IX.
     pub rows: NonZeroU32,
     /// The machine.
     pub machine: Machine,
@@ -44,10 +44,10 @@ impl Figure {
     /// Traces all five.
     ///
     /// # Errors
-    /// As [`Lab::map`].
-    pub fn all(lab: &Lab<'_>) -> Result<Vec<Self>, Error> {
+    /// As [`Runs::map`].
+    pub fn all(runs: &Runs<'_>) -> Result<Vec<Self>, Error> {
         let figures = FIGURES.into_iter().map(|subject| {
-            let (map, region) = lab.map(subject)?;
+            let (map, region) = runs.map(subject)?;
             Ok(Self {
                 name: subject.name,
                 map,
@@ -57,7 +57,7 @@ impl Figure {
         figures.collect()
     }
 
-    /// Shares the picture in packets of so many rows.
+    /// Shares the picture in tiles of so many rows.
     fn share(
         &self,
         policy: Policy,
@@ -65,11 +65,11 @@ impl Figure {
         processors: NonZeroU32,
         machine: &Machine,
     ) -> Outcome {
-        let packets = Shape::strip(rows).cut(&self.region);
-        let costs: Vec<f64> = packets.map(|packet| self.map.cost(&packet)).collect();
+        let tiles = TileSize::strip(rows).cut(&self.region);
+        let costs: Vec<f64> = tiles.map(|tile| self.map.cost(&tile)).collect();
         // As many as fit into 32 bits fit here.
         let processors = NonZeroUsize::try_from(processors).unwrap_or(NonZeroUsize::MAX);
-        let deal = Deal::new(policy, costs.len(), processors, Vec::new());
+        let deal = Scheduler::new(policy, costs.len(), processors, Vec::new());
         simulate(&costs, &deal, machine)
     }
 }
@@ -77,14 +77,14 @@ impl Figure {
 /// What came of it all.
 #[derive(Clone, Debug)]
 pub struct Outcomes {
-    /// The rows of a packet, or the numbers of processors.
+    /// The rows of a tile, or the numbers of processors.
     pub across: &'static [u32],
     /// For each figure its name, and for each value across what each of [`POLICIES`] gives.
     pub figures: Vec<(&'static str, Vec<[Outcome; 2]>)>,
 }
 
 impl Outcomes {
-    /// Table VIII: against the rows of a packet.
+    /// Table VIII: against the rows of a tile.
     pub fn by_rows(figures: &[Figure], simulation: &Simulation) -> Self {
         Self::of(figures, &ROWS, |figure, policy, rows| {
             figure.share(policy, rows, simulation.processors, &simulation.machine)
@@ -197,7 +197,7 @@ pub fn nine(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
             format!("Dynamic is no slower than static in {no_slower} of {all} cases."),
             told(
                 simulation,
-                &format!("in packets of H = {} rows", simulation.rows),
+                &format!("in tiles of H = {} rows", simulation.rows),
             ),
             "The thesis's table has up to 7 processors; its machine ran 8.".into(),
         ],
@@ -214,7 +214,7 @@ fn told(simulation: &Simulation, how: &str) -> String {
     let machine = match simulation.machine == Machine::default() {
         true => "an ideal machine, where the thesis's processors share a bus".into(),
         false => format!(
-            "a machine with {hand_out} instructions to hand out a packet, contention {contention} and {serial} \
+            "a machine with {hand_out} instructions to hand out a tile, contention {contention} and {serial} \
              serial instructions"
         ),
     };
@@ -251,11 +251,11 @@ mod tests {
     }
 
     #[test]
-    fn one_packet_is_not_shared_and_many_are() {
+    fn one_tile_is_not_shared_and_many_are() {
         let outcomes = Outcomes::by_rows(&[figure()], &simulation(Machine::default()));
         let draft = eight(&outcomes, &simulation(Machine::default()));
         let times: Vec<_> = draft.lines.iter().map(|line| line.2[1]).collect();
-        // In twos: four packets of 2, four of 6 on seven processors. From 16 on there is one packet.
+        // In twos: four tiles of 2, four of 6 on seven processors. From 16 on there is one tile.
         assert_eq!(times, [8.0, 12.0, 24.0, 32.0, 32.0, 32.0, 32.0, 32.0]);
         assert!(draft.notes[0].contains("dynamic 2."), "{}", draft.notes[0]);
     }
@@ -291,8 +291,8 @@ mod tests {
     #[test]
     fn every_figure_is_shared() {
         let interrupt = Interrupt::new();
-        let lab = Lab::new(Some((32, 32)), false, &interrupt);
-        let figures = Figure::all(&lab).unwrap();
+        let runs = Runs::new(Some((32, 32)), false, &interrupt);
+        let figures = Figure::all(&runs).unwrap();
         let simulation = simulation(Machine::default());
         let outcomes = Outcomes::by_processors(&figures, &simulation);
         assert_eq!(

@@ -2,7 +2,7 @@
 
 use super::table::{Line, Quantity, Table, Value};
 use comfy_table::{CellAlignment, presets};
-use octray_render::facts::thousands;
+use octray_render::counts::thousands;
 use std::fmt::Write;
 
 /// What is told of what is not known.

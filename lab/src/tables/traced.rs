@@ -1,8 +1,8 @@
 //! The tables of what is counted while scenes are traced: I, II, IV, V, VI and VII.
 
 use super::agreement;
-use super::lab::{Lab, Tally};
 use super::number::Number;
+use super::runs::{Runs, Tally};
 use super::subject::{FIGURES, FLAT, Subject, Trial};
 use super::table::{Base, Draft, Quantity};
 use super::thesis::Thesis;
@@ -43,8 +43,8 @@ time; the thesis's is in minutes. So ratios compare.";
 /// Table I.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn one(lab: &Lab<'_>) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
     let mut trials = Vec::new();
     for subject in [FLAT].into_iter().chain(FIGURES) {
         for (tree, name) in [(TreeKind::Plain, "plain"), (TreeKind::Modified, "modified")] {
@@ -55,7 +55,7 @@ pub fn one(lab: &Lab<'_>) -> Result<Draft, Error> {
             trials.push((trial, name.to_owned()));
         }
     }
-    let mut draft = draft(lab, Number::One, &[VOXELS, SURFACES], trials)?;
+    let mut draft = draft(runs, Number::One, &[VOXELS, SURFACES], trials)?;
     let fewer = |column: usize| {
         let pairs = draft.lines.chunks(2);
         pairs
@@ -79,8 +79,8 @@ pub fn one(lab: &Lab<'_>) -> Result<Draft, Error> {
 /// Table II.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn two(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn two(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     let mut trials = Vec::new();
     for subject in FIGURES {
         let all = subject.scene()?.lights.len();
@@ -97,7 +97,7 @@ pub fn two(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     let [primary, reflected, light_tests, blocked] =
         [PRIMARY, REFLECTED, LIGHT_TESTS, BLOCKED].map(alone);
     let columns = [primary, reflected, light_tests, blocked, TIME];
-    let mut draft = draft(lab, Number::Two, &columns, trials)?;
+    let mut draft = draft(runs, Number::Two, &columns, trials)?;
     draft.base = Base::OfTable;
     draft.notes = vec![
         TIME_IS.into(),
@@ -105,15 +105,15 @@ pub fn two(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
          what the thesis calls a shadow."
             .into(),
     ];
-    draft.notes.extend(agreement::notes(lab, thesis)?);
+    draft.notes.extend(agreement::notes(runs, thesis)?);
     Ok(draft)
 }
 
 /// Table IV.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn four(lab: &Lab<'_>) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn four(runs: &Runs<'_>) -> Result<Draft, Error> {
     let variants = |trial| {
         let opaque = Trial {
             opaque: true,
@@ -122,7 +122,7 @@ pub fn four(lab: &Lab<'_>) -> Result<Draft, Error> {
         [(opaque, "opaque".into()), (trial, "reflective".into())]
     };
     let columns = [REFLECTED, LIGHT_TESTS, BLOCKED, TIME];
-    let mut draft = draft(lab, Number::Four, &columns, each(variants))?;
+    let mut draft = draft(runs, Number::Four, &columns, each(variants))?;
     draft.notes = vec![
         TIME_IS.into(),
         "Opaque are the same scenes with nothing that reflects.".into(),
@@ -133,8 +133,8 @@ pub fn four(lab: &Lab<'_>) -> Result<Draft, Error> {
 /// Table V.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn five(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn five(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     let mut trials = Vec::new();
     for subject in FIGURES {
         let all = subject.scene()?.objects.len();
@@ -144,7 +144,7 @@ pub fn five(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
             trials.push((trial, few.to_string()));
         }
     }
-    let mut draft = draft(lab, Number::Five, &[REFLECTED, BLOCKED, TIME], trials)?;
+    let mut draft = draft(runs, Number::Five, &[REFLECTED, BLOCKED, TIME], trials)?;
     draft.notes = vec![
         TIME_IS.into(),
         "Of a figure's surfaces a quarter and a half are taken, evenly; a sphere, a box and a polygon are one \
@@ -157,8 +157,8 @@ pub fn five(lab: &Lab<'_>, thesis: &Thesis) -> Result<Draft, Error> {
 /// Table VI.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn six(lab: &Lab<'_>) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn six(runs: &Runs<'_>) -> Result<Draft, Error> {
     let variants = |trial| {
         let larger = Trial {
             larger: true,
@@ -167,7 +167,7 @@ pub fn six(lab: &Lab<'_>) -> Result<Draft, Error> {
         [(trial, "as it is".into()), (larger, "larger".into())]
     };
     let columns = [PIXELS, REFLECTED, BLOCKED, TIME];
-    let mut draft = draft(lab, Number::Six, &columns, each(variants))?;
+    let mut draft = draft(runs, Number::Six, &columns, each(variants))?;
     draft.notes = vec![
         TIME_IS.into(),
         "Larger is a quarter more columns and rows in the scene file (640 for 512): it shows more around the \
@@ -181,8 +181,8 @@ pub fn six(lab: &Lab<'_>) -> Result<Draft, Error> {
 /// Table VII.
 ///
 /// # Errors
-/// As [`Lab::tally`].
-pub fn seven(lab: &Lab<'_>) -> Result<Draft, Error> {
+/// As [`Runs::tally`].
+pub fn seven(runs: &Runs<'_>) -> Result<Draft, Error> {
     let variants = |trial| {
         let four = Trial {
             pixels_per_ray: PixelsPerRay::Four,
@@ -191,7 +191,7 @@ pub fn seven(lab: &Lab<'_>) -> Result<Draft, Error> {
         [(trial, "1".into()), (four, "4".into())]
     };
     let columns = [PRIMARY, REFLECTED, BLOCKED, TIME];
-    let mut draft = draft(lab, Number::Seven, &columns, each(variants))?;
+    let mut draft = draft(runs, Number::Seven, &columns, each(variants))?;
     // Reflected rays and time, four pixels per ray over one.
     let [rays, time] = [1, 3].map(|column| {
         let pairs = draft.lines.chunks(2);
@@ -238,16 +238,16 @@ fn with_the_thesis<const N: usize>(
 
 /// The table with these columns; where time is taken, that is one more.
 fn draft(
-    lab: &Lab<'_>,
+    runs: &Runs<'_>,
     number: Number,
     columns: &[Column],
     trials: Vec<(Trial, String)>,
 ) -> Result<Draft, Error> {
-    let measured = lab.time.then_some(&MEASURED);
+    let measured = runs.time.then_some(&MEASURED);
     let columns: Vec<&Column> = columns.iter().chain(measured).collect();
     let mut lines = Vec::new();
     for (trial, variant) in trials {
-        let tally = lab.tally(trial)?;
+        let tally = runs.tally(trial)?;
         let values = columns.iter().map(|(_, get)| get(&tally)).collect();
         lines.push((trial.subject.name.into(), variant, values));
     }
@@ -269,16 +269,16 @@ mod tests {
     #[test]
     fn a_scene_as_it_is_is_traced_once_for_all_tables() {
         let interrupt = Interrupt::new();
-        let lab = Lab::new(Some((8, 8)), false, &interrupt);
+        let runs = Runs::new(Some((8, 8)), false, &interrupt);
         let nothing = Thesis::default();
-        four(&lab).unwrap();
+        four(&runs).unwrap();
         // Each figure as it is, and opaque.
-        assert_eq!(lab.traced(), 10);
-        five(&lab, &nothing).unwrap();
+        assert_eq!(runs.traced(), 10);
+        five(&runs, &nothing).unwrap();
         // A quarter and a half of its surfaces.
-        assert_eq!(lab.traced(), 20);
-        let lines = two(&lab, &nothing).unwrap().lines.len();
-        assert_eq!(lab.traced(), 20 + lines - 5);
+        assert_eq!(runs.traced(), 20);
+        let lines = two(&runs, &nothing).unwrap().lines.len();
+        assert_eq!(runs.traced(), 20 + lines - 5);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! | [`exact`] | truth: numbers of 512 bits |
 //! | [`number`] | the arithmetics under test |
 //! | [`random`] | cases |
-//! | [`stage`], [`spy`] | shapes one at a time; the rays that the tracer sends on from them |
+//! | [`fixtures`], [`mock_accelerator`] | shapes one at a time; the rays that the tracer sends on from them |
 //! | [`tally`] | what is measured of a case, and what that is worth: three states |
 //! | [`setting`] | the scene that a value stands for: is it admitted? |
 //! | [`method`] | a method: its forms, the values swept, the bounds |
@@ -20,13 +20,13 @@
 //! its input, unless a sweep says so.
 
 pub mod exact;
+pub mod fixtures;
 pub mod method;
+pub mod mock_accelerator;
 pub mod number;
 pub mod random;
 pub mod record;
 pub mod setting;
-pub mod spy;
-pub mod stage;
 pub mod survey;
 pub mod sweep;
 pub mod tally;

@@ -4,6 +4,7 @@ use crate::number::{ARITHMETICS, Number};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally};
 use octray_core::scalar::{Approx, Fixed, Fixed64};
+use octray_prepare::saturation::PerThread;
 use serde::Serialize;
 
 /// One way to compute the same thing.
@@ -73,13 +74,13 @@ impl Method {
                 Runner::of::<W, Approx<2>>(),
                 Runner::of::<W, Approx<1>>(),
                 Runner::of::<W, Approx<0>>(),
-                Runner::of::<W, Fixed64>(),
-                Runner::of::<W, Fixed<28, true>>(),
-                Runner::of::<W, Fixed<24, true>>(),
-                Runner::of::<W, Fixed<20, true>>(),
-                Runner::of::<W, Fixed<16, true>>(),
-                Runner::of::<W, Fixed<12, true>>(),
-                Runner::of::<W, Fixed<8, true>>(),
+                Runner::of::<W, Fixed64<PerThread>>(),
+                Runner::of::<W, Fixed<28, PerThread>>(),
+                Runner::of::<W, Fixed<24, PerThread>>(),
+                Runner::of::<W, Fixed<20, PerThread>>(),
+                Runner::of::<W, Fixed<16, PerThread>>(),
+                Runner::of::<W, Fixed<12, PerThread>>(),
+                Runner::of::<W, Fixed<8, PerThread>>(),
             ],
         }
     }

@@ -1,10 +1,11 @@
 //! The arithmetics under test.
 
 use crate::exact::{Exact, Exact3, exact};
+use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
-use octray_core::scalar::{Approx, Fixed, Fixed64, Quantize, reset_saturations, saturations};
+use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_core::vec3::Vec3;
-use std::sync::{Mutex, PoisonError};
+use octray_prepare::saturation::{self, PerThread};
 
 /// A number whose exact value can be told.
 pub trait Number: Quantize {
@@ -17,8 +18,8 @@ pub trait Number: Quantize {
 impl Number for f64 {}
 impl Number for f32 {}
 impl<const N: u32> Number for Approx<N> {}
-impl<const F: u32> Number for Fixed<F, true> {}
-impl Number for Fixed64 {
+impl<const F: u32> Number for Fixed<F, PerThread> {}
+impl Number for Fixed64<PerThread> {
     // It has more digits than an `f64`.
     fn exact(self) -> Exact {
         let bits = self.to_bits();
@@ -34,13 +35,13 @@ pub const ARITHMETICS: [&str; 12] = [
     Approx::<2>::NAME,
     Approx::<1>::NAME,
     Approx::<0>::NAME,
-    Fixed64::NAME,
-    Fixed::<28, true>::NAME,
-    Fixed::<24, true>::NAME,
-    Fixed::<20, true>::NAME,
-    Fixed::<16, true>::NAME,
-    Fixed::<12, true>::NAME,
-    Fixed::<8, true>::NAME,
+    Fixed64::<PerThread>::NAME,
+    Fixed::<28, PerThread>::NAME,
+    Fixed::<24, PerThread>::NAME,
+    Fixed::<20, PerThread>::NAME,
+    Fixed::<16, PerThread>::NAME,
+    Fixed::<12, PerThread>::NAME,
+    Fixed::<8, PerThread>::NAME,
 ];
 
 /// The size of a scene in a format's numbers, as quantisation would scale it: a power of two, half
@@ -87,14 +88,10 @@ pub fn ray<S: Number>(origin: [f64; 3], direction: Vec3<S>) -> Ray<S> {
     }
 }
 
-/// What `work` gives, and how many saturations it took. The count is the process's, so only one
-/// thread at a time works.
+/// What `work` gives, and how many saturations it took on this thread.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u32) {
-    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-    reset_saturations();
-    let result = work();
-    (result, saturations())
+    let (result, count) = saturation::counted(work);
+    (result, u32::try_from(count).unwrap_or(u32::MAX))
 }
 
 #[cfg(test)]
@@ -103,7 +100,7 @@ mod tests {
 
     #[test]
     fn the_long_fixed_format_is_exact() {
-        let x = Fixed64::from_bits((1 << 62) + 1);
+        let x = Fixed64::<PerThread>::from_bits((1 << 62) + 1);
         let expected = exact((1u64 << 30) as f64) + exact(2f64.powi(-32));
         assert_eq!(x.exact(), expected);
         assert_eq!((-x).exact(), -expected);
@@ -115,14 +112,14 @@ mod tests {
             let room = S::MAX.to_f64() / 1.5;
             assert!(span::<S>() <= room && span::<S>() > room / 2.0);
         }
-        fits::<Fixed<28, true>>();
-        fits::<Fixed<8, true>>();
-        fits::<Fixed64>();
+        fits::<Fixed<28, PerThread>>();
+        fits::<Fixed<8, PerThread>>();
+        fits::<Fixed64<PerThread>>();
     }
 
     #[test]
     fn saturations_are_counted() {
-        let large = Fixed::<16, true>::from_f64(30_000.0);
+        let large = Fixed::<16, PerThread>::from_f64(30_000.0);
         assert_eq!(counted(|| large + large).1, 1);
         assert_eq!(counted(|| large - large).1, 0);
     }

@@ -1,7 +1,7 @@
 //! The scenes that values of sweeps stand for: what is asked of them is whether a format admits
 //! them, and where it puts them.
 
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, limits, quantise, resolution};
 use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};

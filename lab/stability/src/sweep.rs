@@ -1,6 +1,5 @@
 //! The sweeps, one file for each method.
 
-pub mod arena;
 pub mod coincident;
 pub mod cone;
 pub mod depth;
@@ -11,6 +10,7 @@ pub mod offset;
 pub mod plane;
 pub mod polygon;
 pub mod power;
+pub mod range_limits;
 pub mod slab;
 pub mod sphere;
 pub mod subpixel;
@@ -37,5 +37,5 @@ pub static ALL: &[Method] = &[
     Method::of::<coincident::Coincident>(),
     Method::of::<subpixel::SubPixel>(),
     Method::of::<depth::Depth>(),
-    Method::of::<arena::Arena>(),
+    Method::of::<range_limits::Arena>(),
 ];

@@ -1,16 +1,16 @@
 //! The tables as Rust source.
 
-use super::{BakeOptions, Literal};
+use super::BakeOptions;
+use crate::literal::Literal;
 use crate::quantise::Prepared;
+use octray_core::accel;
 use octray_core::camera::Projection;
-use octray_core::needs::{self, Needs};
-use octray_core::octree;
-use octray_core::packet::Parts;
-use octray_core::ray::Bounds;
+use octray_core::features::{self, FeatureSet};
+use octray_core::frame::FrameParams;
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::ray::Aabb;
 use octray_core::scene::{Attributes, Light, Surface};
-use octray_core::shape::{
-    Bands, Cone, Cuboid, Flat, Kind, ObjectRef, Patch, Polygon, Sphere, Triangle,
-};
+use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 use std::fmt::{self, Display, Formatter};
 
@@ -20,7 +20,7 @@ pub(super) struct Tables<'a, S: Literal> {
     pub(super) tree: Tree,
     /// The objects, leaf by leaf.
     pub(super) links: &'a [ObjectRef],
-    pub(super) needs: Needs,
+    pub(super) features: FeatureSet,
     pub(super) rays: usize,
     pub(super) options: &'a BakeOptions<'a>,
 }
@@ -32,7 +32,7 @@ pub(super) enum Tree {
     /// The packed tree's nodes, its tick, and how many nodes can wait while it is walked.
     Packed(Vec<u32>, u32, usize),
     /// The number of words that a tree grown like this takes.
-    Device(usize, octree::Options),
+    Device(usize, accel::BuildOptions),
 }
 
 impl Tree {
@@ -48,7 +48,7 @@ impl Tree {
         match self {
             Self::None => 0,
             Self::Packed(_, _, nodes) => *nodes,
-            Self::Device(..) => octree::PACKED_STACK,
+            Self::Device(..) => accel::COMPACT_STACK_SIZE,
         }
     }
 
@@ -118,29 +118,31 @@ impl<S: Literal> Display for Tables<'_, S> {
         )?;
         array(f, "SURFACES", "scene::Surface<S>", &scene.surfaces, surface)?;
         array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
-        array(f, "LINKS", "shape::ObjectRef", self.baked_links(), link)?;
+        array(f, "LINKS", "object::ObjectRef", self.baked_links(), link)?;
         array(f, "WORDS", "u32", self.tree.words(), |w| {
             format!("{w:#010x}")
         })?;
         writeln!(
             f,
-            "\n/// The scene.\npub static SCENE: scene::Scene<'static, S, NEEDS> = scene::Scene {{\n    \
+            "\n/// The scene.\npub static SCENE: scene::Scene<'static, S, FEATURES> = scene::Scene {{\n    \
              shapes: shape::Shapes {{\n        \
              spheres: &SPHERES,\n        triangles: &TRIANGLES,\n        polygons: &POLYGONS,\n        \
              cones: &CONES,\n        cuboids: &CUBOIDS,\n        \
              outlines: shape::Outlines {{ corners: &CORNERS, bands: &BANDS, edges: &EDGES }},\n        \
              patches: &PATCHES,\n        normals: &NORMALS,\n        slack: {},\n    }},\n    \
              attributes: &ATTRIBUTES,\n    first: {:?},\n    surfaces: &SURFACES,\n    \
-             lights: &LIGHTS_,\n    background: {},\n    reach: {},\n}};",
+             lights: &LIGHTS_,\n    background: {},\n    diameter: {},\n}};",
             number(scene.slack),
             seen.first,
             vector(&scene.background),
-            number(scene.reach),
+            number(scene.diameter),
         )?;
         let tree = match &self.tree {
-            Tree::None => "octree::List(&LINKS)".into(),
+            Tree::None => "accel::BruteForce(&LINKS)".into(),
             Tree::Packed(_, tick, _) => {
-                format!("octree::Packed {{ words: &WORDS, links: &LINKS, tick: {tick} }}")
+                format!(
+                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"too little room for the walk\"),\n}}"
+                )
             }
             Tree::Device(..) => String::new(),
         };
@@ -150,8 +152,8 @@ impl<S: Literal> Display for Tables<'_, S> {
         writeln!(
             f,
             "\n/// Its picture.\n\
-             pub static FRAME: packet::Frame<S> = packet::Frame::from_parts({});",
-            parts(self.prepared.frame.parts())
+             pub static FRAME: frame::Frame<S> = frame::Frame::from_params({});",
+            params(self.prepared.frame.params())
         )
     }
 }
@@ -160,24 +162,24 @@ impl<S: Literal> Tables<'_, S> {
     fn head(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let BakeOptions { name, settings, .. } = self.options;
         let raw = S::RAW;
-        let parts = self.prepared.frame.parts();
+        let params = self.prepared.frame.params();
         let tree = match self.tree {
-            Tree::None => "octree::List<'static>".into(),
-            Tree::Packed(_, _, nodes) => format!("octree::Packed<'static, {nodes}>"),
-            Tree::Device(..) => "octree::Packed<'static>".into(),
+            Tree::None => "accel::BruteForce<'static>".into(),
+            Tree::Packed(_, _, nodes) => format!("accel::CompactBvh8<'static, {nodes}>"),
+            Tree::Device(..) => "accel::CompactBvh8<'static>".into(),
         };
         let device = match &self.tree {
-            Tree::Device(words, octree::Options { depth, leaf_size }) => format!(
+            Tree::Device(words, accel::BuildOptions { depth, leaf_size }) => format!(
                 "/// Words that the tree takes on the device.\npub const TREE_WORDS: usize = {words};\n\
-                 /// How it is built.\npub const GROWTH: octree::Options = \
-                 octree::Options {{ depth: {depth}, leaf_size: {leaf_size} }};\n"
+                 /// How it is built.\npub const GROWTH: accel::BuildOptions = \
+                 accel::BuildOptions {{ depth: {depth}, leaf_size: {leaf_size} }};\n"
             ),
             _ => String::new(),
         };
-        let needed: Vec<_> = needs::NAMES
+        let needed: Vec<_> = features::NAMES
             .into_iter()
-            .filter(|(_, what)| needs::needs(self.needs, *what))
-            .map(|(name, _)| format!("needs::{name}"))
+            .filter(|(_, what)| features::contains(self.features, *what))
+            .map(|(name, _)| format!("features::{name}"))
             .collect();
         let needed = match &*needed {
             [] => "0".into(),
@@ -186,9 +188,9 @@ impl<S: Literal> Tables<'_, S> {
         writeln!(
             f,
             "// {name}, baked by octray in {} at {} x {}.\n\
-             use octray_core::{{camera, needs, octree, packet, scalar, scene, shape, vec3}};\n\n\
+             use octray_core::{{accel, camera, features, frame, object, scalar, scene, shape, vec3}};\n\n\
              /// The arithmetic.\npub type S = {};\n/// The kind of tree.\npub type Tree = {tree};\n\
-             /// What the scene needs.\npub const NEEDS: needs::Needs = {needed};\n\
+             /// The features that the scene uses.\npub const FEATURES: features::FeatureSet = {needed};\n\
              /// The scene's name.\npub const NAME: &str = {name:?};\n\
              /// The arithmetic's name.\npub const ARITH: &str = {:?};\n\
              /// Columns.\npub const WIDTH: u32 = {};\n/// Rows.\npub const HEIGHT: u32 = {};\n\
@@ -202,12 +204,12 @@ impl<S: Literal> Tables<'_, S> {
              const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \
              vec3::vec3(n(x), n(y), n(z))\n}}\n",
             S::NAME,
-            parts.width,
-            parts.height,
+            params.width,
+            params.height,
             S::type_name(),
             S::NAME,
-            parts.width,
-            parts.height,
+            params.width,
+            params.height,
             settings.max_depth,
             number(S::from_f64(settings.cut_off)),
             self.rays,
@@ -244,18 +246,18 @@ fn pair<S: Literal>([a, b]: &[S; 2]) -> String {
     format!("[{}, {}]", number(*a), number(*b))
 }
 
-fn bounds<S: Literal>(b: &Bounds<S>) -> String {
+fn bounds<S: Literal>(b: &Aabb<S>) -> String {
     let (low, high) = (vector(&b.low), vector(&b.high));
-    format!("octray_core::ray::Bounds {{ low: {low}, high: {high} }}")
+    format!("octray_core::ray::Aabb {{ low: {low}, high: {high} }}")
 }
 
 fn axis(axis: Axis) -> String {
     format!("vec3::Axis::{axis:?}")
 }
 
-fn flat<S: Literal>(plane: &Flat<S>) -> String {
+fn flat<S: Literal>(plane: &Plane<S>) -> String {
     format!(
-        "shape::Flat {{ normal: {}, offset: {}, axis: {} }}",
+        "shape::Plane {{ normal: {}, offset: {}, axis: {} }}",
         vector(&plane.normal),
         number(plane.offset),
         axis(plane.axis)
@@ -301,14 +303,14 @@ fn polygon<S: Literal>(polygon: &Polygon<S>) -> String {
 fn cone<S: Literal>(cone: &Cone<S>) -> String {
     format!(
         "shape::Cone {{ centre: {}, axis: {}, half_length: {}, mid_radius: {}, sin: {}, cos: {}, \
-         reach: {}, exponent: {}, bounds: {} }}",
+         bounding_radius: {}, exponent: {}, bounds: {} }}",
         vector(&cone.centre),
         vector(&cone.axis),
         number(cone.half_length),
         number(cone.mid_radius),
         number(cone.sin),
         number(cone.cos),
-        number(cone.reach),
+        number(cone.bounding_radius),
         cone.exponent,
         bounds(&cone.bounds)
     )
@@ -362,41 +364,41 @@ fn light<S: Literal>(light: &Light<S>) -> String {
 }
 
 fn link(link: &ObjectRef) -> String {
-    let kind: Kind = link.kind();
+    let kind: ObjectKind = link.kind();
     let mark = if link.is_last() {
         ".marked_last(true)"
     } else {
         ""
     };
     format!(
-        "shape::ObjectRef::new(shape::Kind::{kind:?}, {}){mark}",
+        "object::ObjectRef::new(object::ObjectKind::{kind:?}, {}){mark}",
         link.index()
     )
 }
 
-fn parts<S: Literal>(parts: &Parts<S>) -> String {
-    let camera = &parts.camera;
+fn params<S: Literal>(params: &FrameParams<S>) -> String {
+    let camera = &params.camera;
     let projection = match camera.projection {
         Projection::Perspective => "Perspective",
         Projection::Parallel => "Parallel",
     };
     format!(
-        "packet::Parts {{\n    camera: camera::Camera {{\n        origin: {},\n        \
+        "frame::FrameParams {{\n    camera: camera::Camera {{\n        origin: {},\n        \
          forward: {},\n        right: {},\n        up: {},\n        \
          projection: camera::Projection::{projection},\n    }},\n    \
-         active: packet::Region {{ columns: {:?}, rows: {:?} }},\n    block: {},\n    \
-         samples: {},\n    width: WIDTH,\n    height: HEIGHT,\n    across: {},\n    down: {},\n    \
-         share: {},\n}}",
+         active: frame::Region {{ columns: {:?}, rows: {:?} }},\n    block: {},\n    \
+         samples: {},\n    width: WIDTH,\n    height: HEIGHT,\n    inv_width: {},\n    inv_height: {},\n    \
+         sample_weight: {},\n}}",
         vector(&camera.origin),
         vector(&camera.forward),
         vector(&camera.right),
         vector(&camera.up),
-        parts.active.columns,
-        parts.active.rows,
-        parts.block,
-        parts.samples,
-        S::reciprocal_source(parts.across),
-        S::reciprocal_source(parts.down),
-        number(parts.share),
+        params.active.columns,
+        params.active.rows,
+        params.block,
+        params.samples,
+        S::reciprocal_source(params.inv_width),
+        S::reciprocal_source(params.inv_height),
+        number(params.sample_weight),
     )
 }

@@ -3,8 +3,8 @@
 use super::{Extent, Placement, vector};
 use crate::settings::RenderSettings;
 use octray_core::camera::{Camera, Projection};
-use octray_core::packet::{Frame, Region};
-use octray_core::scalar::Quantize;
+use octray_core::frame::{Frame, Region};
+use octray_core::quantize::Quantize;
 use octray_scenes::model::{self, Point, Scene};
 
 /// The camera in scene units: the picture spans −1 … 1 both ways.

@@ -4,7 +4,7 @@
 use super::camera::{add, length, times};
 use super::extent::{Extent, shape_box};
 use crate::settings::RenderSettings;
-use octray_core::scalar::Quantize;
+use octray_core::quantize::Quantize;
 use octray_scenes::model::{Point, Scene, Shape};
 use std::fmt;
 

@@ -3,10 +3,11 @@
 use super::camera::{add, cross, dot, length, times, unit};
 use super::extent::shape_box;
 use super::{Placement, Quantised, down, up, vector};
-use octray_core::ray::Bounds;
-use octray_core::scalar::Quantize;
+use octray_core::object::ObjectKind;
+use octray_core::quantize::Quantize;
+use octray_core::ray::Aabb;
 use octray_core::scene::Attributes;
-use octray_core::shape::{Bands, Cone, Cuboid, Flat, Kind, Patch, Polygon, Sphere, Triangle};
+use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 use octray_scenes::model::{Object, Point, Scene, Shape};
 
@@ -20,7 +21,7 @@ impl<S: Quantize> Quantised<S> {
                     centre: vector(place.point(centre)),
                     radius: at_least_one_step(place.length(radius)),
                 });
-                Kind::Sphere
+                ObjectKind::Sphere
             }
             Shape::Cuboid { .. } => {
                 let [low, high] = shape_box(scene, &object.shape);
@@ -28,12 +29,12 @@ impl<S: Quantize> Quantised<S> {
                     low: vector(place.point(low)),
                     high: vector(place.point(high)),
                 });
-                Kind::Cuboid
+                ObjectKind::Cuboid
             }
             Shape::Cone { .. } => {
                 let cone = self.cone(scene, &object.shape, place);
                 self.cones.push(cone);
-                Kind::Cone
+                ObjectKind::Cone
             }
             Shape::Polygon { first, count } => self.polygon(scene, first, count, place),
             Shape::Patch {
@@ -55,9 +56,9 @@ impl<S: Quantize> Quantised<S> {
     }
 
     /// A box of the scene in the format's numbers, rounded outward, wider by slack and `more`.
-    fn bounds(&self, [low, high]: [Point; 2], more: f64, place: &Placement) -> Bounds<S> {
+    fn bounds(&self, [low, high]: [Point; 2], more: f64, place: &Placement) -> Aabb<S> {
         let more = place.length(more) + self.slack.to_f64();
-        Bounds {
+        Aabb {
             low: Vec3::from(place.point(low).map(|x| down::<S>(x - more))),
             high: Vec3::from(place.point(high).map(|x| up::<S>(x + more))),
         }
@@ -77,9 +78,9 @@ impl<S: Quantize> Quantised<S> {
         let height = length(along);
         let rise = top_radius - base_radius;
         let slant = height.hypot(rise);
-        let reach = (height / 2.0).hypot(base_radius.max(top_radius));
+        let bounding_radius = (height / 2.0).hypot(base_radius.max(top_radius));
         // Scaled by 2^exponent, the bounding sphere's radius is in [½, 1).
-        let scaled = place.length(reach);
+        let scaled = place.length(bounding_radius);
         let exponent = if S::FRACTION_BITS.is_some() {
             (-(scaled.log2().floor()) - 1.0).clamp(-31.0, 31.0) as i8
         } else {
@@ -93,7 +94,7 @@ impl<S: Quantize> Quantised<S> {
             mid_radius: local((base_radius + top_radius) / 2.0),
             sin: S::from_f64(rise / slant),
             cos: S::from_f64(height / slant),
-            reach: up(scaled + self.slack.to_f64()),
+            bounding_radius: up(scaled + self.slack.to_f64()),
             exponent,
             bounds: self.bounds(shape_box(scene, shape), 0.0, place),
         }
@@ -101,7 +102,7 @@ impl<S: Quantize> Quantised<S> {
 
     /// Adds a triangle or a polygon. The plane goes through the vertices' middle along Newell's
     /// normal; vertices that lie off it (a file has few digits) widen the box.
-    fn polygon(&mut self, scene: &Scene, first: u32, count: u32, place: &Placement) -> Kind {
+    fn polygon(&mut self, scene: &Scene, first: u32, count: u32, place: &Placement) -> ObjectKind {
         let vertices = &scene.vertices[first as usize..][..count as usize];
         let middle = times(
             vertices.iter().fold([0.0; 3], |sum, v| add(sum, *v)),
@@ -127,7 +128,7 @@ impl<S: Quantize> Quantised<S> {
         // The offset goes with the normal as it is rounded, not as it is.
         let rounded: Vec3<S> = vector(normal);
         let offset = dot(rounded.to_array().map(S::to_f64), place.point(middle));
-        let plane = Flat {
+        let plane = Plane {
             normal: rounded,
             offset: S::from_f64(offset),
             axis,
@@ -146,7 +147,7 @@ impl<S: Quantize> Quantised<S> {
                 corners: [corner(a), corner(b), corner(c)],
                 depth: [bounds.low[axis], bounds.high[axis]],
             });
-            return Kind::Triangle;
+            return ObjectKind::Triangle;
         }
         let first = self.corners.len() as u32;
         self.corners.extend(vertices.iter().map(corner));
@@ -158,12 +159,12 @@ impl<S: Quantize> Quantised<S> {
             bounds,
             bands,
         });
-        Kind::Polygon
+        ObjectKind::Polygon
     }
 
     /// Cuts the polygon whose corners were added last into bands, as many as half its edges, fewer
     /// if most edges pass through most of them.
-    fn bands(&mut self, bounds: &Bounds<S>, v: Axis, first: usize) -> Bands<S> {
+    fn bands(&mut self, bounds: &Aabb<S>, v: Axis, first: usize) -> Bands<S> {
         let corners = &self.corners[first..];
         let low = bounds.low[v];
         let mut bands = Bands {

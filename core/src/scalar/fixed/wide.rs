@@ -1,24 +1,24 @@
 //! 64-bit fixed point, the reference beside the 32-bit formats: exact integer square root and
 //! division, slow and plain.
 
-use super::count;
-use crate::octree::Slope;
-use crate::scalar::{Exponent, Quantize, Scalar};
-use core::ops::{Add, Mul, Neg, Sub};
+use crate::scalar::operators::operators;
+use crate::scalar::{Exponent, Intensity, Ratio, SaturationCounter, Scalar, Tolerance};
+use core::cmp::Ordering;
+use core::fmt::{self, Debug, Formatter};
+use core::marker::PhantomData;
 
 const F: u32 = 32;
 
-/// A signed 64-bit number with 32 bits behind the point. Sums and products saturate and are
-/// counted in [`crate::scalar::saturations`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd)]
+/// A signed 64-bit number with 32 bits behind the point. Sums and products saturate whatever the
+/// counter, and `C` counts each saturation.
 #[repr(transparent)]
-pub struct Fixed64(i64);
+pub struct Fixed64<C = ()>(i64, PhantomData<fn() -> C>);
 
-impl Fixed64 {
+impl<C> Fixed64<C> {
     /// The number with this bit pattern: `raw` · 2⁻³².
     #[inline(always)]
     pub const fn from_bits(raw: i64) -> Self {
-        Self(raw)
+        Self(raw, PhantomData)
     }
 
     /// The bit pattern: the number times 2³².
@@ -26,78 +26,82 @@ impl Fixed64 {
     pub const fn to_bits(self) -> i64 {
         self.0
     }
+}
 
+// Not derived: nothing of this depends on the counter.
+impl<C> Copy for Fixed64<C> {}
+
+impl<C> Clone for Fixed64<C> {
     #[inline(always)]
-    fn fit(raw: i128) -> Self {
-        if raw != i128::from(raw as i64) {
-            count::saturated();
-            return saturate(raw);
-        }
-        Self(raw as i64)
+    fn clone(&self) -> Self {
+        *self
     }
 }
 
-fn saturate(raw: i128) -> Fixed64 {
-    Fixed64(raw.clamp(-i128::from(i64::MAX), i128::from(i64::MAX)) as i64)
+impl<C> Default for Fixed64<C> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::from_bits(0)
+    }
+}
+
+impl<C> PartialEq for Fixed64<C> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<C> Eq for Fixed64<C> {}
+
+impl<C> PartialOrd for Fixed64<C> {
+    #[inline(always)]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
+impl<C> Debug for Fixed64<C> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Fixed64").field(&self.0).finish()
+    }
+}
+
+impl<C: SaturationCounter> Fixed64<C> {
+    #[inline(always)]
+    fn fit(raw: i128) -> Self {
+        if raw != i128::from(raw as i64) {
+            C::saturated();
+            return saturate(raw);
+        }
+        Self::from_bits(raw as i64)
+    }
+}
+
+fn saturate<C>(raw: i128) -> Fixed64<C> {
+    Fixed64::from_bits(raw.clamp(-i128::from(i64::MAX), i128::from(i64::MAX)) as i64)
 }
 
 /// 64 bits behind the point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
 pub struct Product(i128);
 
-impl Add for Product {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0.wrapping_add(other.0))
-    }
+operators! { [] Product,
+    Add::add = |a, b| Self(a.0.wrapping_add(b.0));
+    Sub::sub = |a, b| Self(a.0.wrapping_sub(b.0));
 }
 
-impl Sub for Product {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(self.0.wrapping_sub(other.0))
-    }
+operators! { [C: SaturationCounter] Fixed64<C>,
+    Add::add = |a, b| Self::fit(i128::from(a.0) + i128::from(b.0));
+    Sub::sub = |a, b| Self::fit(i128::from(a.0) - i128::from(b.0));
+    Mul::mul = |a, b| Self::narrow(Self::product(a, b));
+    Neg::neg = |a| Self::from_bits(a.0.wrapping_neg());
 }
 
-impl Add for Fixed64 {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self::fit(i128::from(self.0) + i128::from(other.0))
-    }
-}
-
-impl Sub for Fixed64 {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self::fit(i128::from(self.0) - i128::from(other.0))
-    }
-}
-
-impl Mul for Fixed64 {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self::narrow(Self::product(self, other))
-    }
-}
-
-impl Neg for Fixed64 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.wrapping_neg())
-    }
-}
-
-impl Scalar for Fixed64 {
-    const ZERO: Self = Self(0);
-    const ONE: Self = Self(1 << F);
-    const MAX: Self = Self(i64::MAX);
-    const EXACT_ROOTS: bool = true;
+impl<C: SaturationCounter> Scalar for Fixed64<C> {
+    const ZERO: Self = Self::from_bits(0);
+    const ONE: Self = Self::from_bits(1 << F);
+    const MAX: Self = Self::from_bits(i64::MAX);
 
     type Wide = Product;
 
@@ -113,7 +117,7 @@ impl Scalar for Fixed64 {
 
     #[inline(always)]
     fn sqrt_wide(wide: Product) -> Self {
-        Self(wide.0.max(0).unsigned_abs().isqrt() as i64)
+        Self::from_bits(wide.0.max(0).unsigned_abs().isqrt() as i64)
     }
 
     type Reciprocal = Self;
@@ -124,7 +128,7 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn scaled(self, divisor: Self) -> Self {
+    fn times_reciprocal(self, divisor: Self) -> Self {
         if divisor.0 == 0 {
             return if self.0 < 0 { -Self::MAX } else { Self::MAX };
         }
@@ -132,28 +136,18 @@ impl Scalar for Fixed64 {
     }
 
     #[inline(always)]
-    fn surely_exceeds(_: Self, _: Self, _: Self) -> bool {
+    fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
         false
     }
 
-    #[inline(always)]
-    fn whole_reciprocal(n: u32) -> Self {
-        Self(i64::from(n))
-    }
-
-    #[inline(always)]
-    fn ratio(numerator: i32, n: Self) -> Self {
-        Self(i64::from(numerator)).scaled(n)
-    }
-
-    fn part(self, n: u32) -> u32 {
+    fn scale_to_index(self, n: u32) -> u32 {
         ((i128::from(self.0.max(0)) * i128::from(n)) >> F) as u32
     }
 
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
         let size = v.iter().fold(0, |size, c| size | c.0.unsigned_abs());
         if size == 0 {
-            return (v, Self(0));
+            return (v, Self::from_bits(0));
         }
         // The largest component comes to lie in [2⁶⁰, 2⁶¹) or keeps its place above.
         let up = size.leading_zeros().saturating_sub(3);
@@ -166,36 +160,49 @@ impl Scalar for Fixed64 {
         (unit, saturate(length >> up))
     }
 
-    fn power(self, exponent: Exponent<Self>) -> Self {
-        // 31 bits are enough for a colour.
-        let x = (self.0.clamp(0, 1 << F) >> 4) as i32;
-        let fraction = (exponent.fraction.0 >> 4) as i32;
-        Self(i64::from(super::power::power(x, 28, exponent.whole, fraction)) << 4)
-    }
-
     #[inline(always)]
     fn to_local(self, exponent: i8) -> Self {
         if exponent >= 0 {
-            Self(self.0 << (exponent & 63))
+            Self::from_bits(self.0 << (exponent & 63))
         } else {
-            Self(self.0 >> (exponent.unsigned_abs() & 63))
+            Self::from_bits(self.0 >> (exponent.unsigned_abs() & 63))
         }
     }
 
     #[inline(always)]
     fn to_global(self, exponent: i8) -> Self {
         if exponent >= 0 {
-            Self(self.0 >> (exponent & 63))
+            Self::from_bits(self.0 >> (exponent & 63))
         } else {
             saturate(i128::from(self.0) << (exponent.unsigned_abs() & 63))
         }
     }
+}
+
+impl<C: SaturationCounter> Tolerance for Fixed64<C> {
+    const EXACT_ROOTS: bool = true;
+
+    const HITS_WITHIN_SLACK: bool = true;
 
     #[inline(always)]
-    fn surface_error(_: Self, reach: Self) -> Self {
-        Self((reach.0 >> 28).wrapping_add(16))
+    fn surface_error(_: Self, curvature_extent: Self) -> Self {
+        Self::from_bits((curvature_extent.0 >> 28).wrapping_add(16))
+    }
+}
+
+impl<C: SaturationCounter> Ratio for Fixed64<C> {
+    #[inline(always)]
+    fn whole_reciprocal(n: u32) -> Self {
+        Self::from_bits(i64::from(n))
     }
 
+    #[inline(always)]
+    fn ratio(numerator: i32, n: Self) -> Self {
+        Self::from_bits(i64::from(numerator)).times_reciprocal(n)
+    }
+}
+
+impl<C: SaturationCounter> Intensity for Fixed64<C> {
     #[inline(always)]
     fn level(self) -> u8 {
         ((self.0.clamp(0, 1 << F) * 255 + (1 << (F - 1))) >> F) as u8
@@ -206,59 +213,10 @@ impl Scalar for Fixed64 {
         (self + light).min(Self::ONE)
     }
 
-    #[inline(always)]
-    fn grid(self) -> i32 {
-        (self.0 >> 32) as i32
-    }
-
-    const GRID_SLACK: i32 = 4;
-
-    const SOUND: bool = true;
-
-    #[inline(always)]
-    fn slope_q30(self) -> i32 {
-        (self.0 >> (F - 30)) as i32
-    }
-
-    type Plane = i64;
-
-    #[inline(always)]
-    fn plane(self) -> i64 {
-        self.0
-    }
-
-    #[inline(always)]
-    fn from_plane(plane: i64) -> Self {
-        Self(plane)
-    }
-
-    #[inline(always)]
-    fn slope(self) -> Slope<i64> {
-        let size = self.0.unsigned_abs();
-        let (mantissa, shift) = if size == 0 {
-            (1i64 << 62, 0)
-        } else {
-            // 2¹²⁵ / x, for x normalised to [2⁶³, 2⁶⁴), in (2⁶¹, 2⁶²].
-            let zeros = size.leading_zeros();
-            let mantissa = ((1u128 << 125) / u128::from(size << zeros)) as i64;
-            (mantissa, (125 - F - zeros) as u8)
-        };
-        let signed = if self.0 < 0 { -mantissa } else { mantissa };
-        Slope::<i64>::new(self.0 < 0, signed, shift)
-    }
-}
-
-impl Quantize for Fixed64 {
-    const NAME: &'static str = "i32f32";
-    const FRACTION_BITS: Option<u32> = Some(F);
-    const SLACK: f64 = 1.0 / (1u64 << 28) as f64;
-
-    fn from_f64(x: f64) -> Self {
-        let scaled = x * (1u64 << F) as f64;
-        Self((libm::floor(scaled + 0.5) as i64).max(-i64::MAX))
-    }
-
-    fn to_f64(self) -> f64 {
-        self.0 as f64 / (1u64 << F) as f64
+    fn power(self, exponent: Exponent<Self>) -> Self {
+        // 31 bits are enough for a colour.
+        let x = (self.0.clamp(0, 1 << F) >> 4) as i32;
+        let fraction = (exponent.fraction.0 >> 4) as i32;
+        Self::from_bits(i64::from(super::power::power(x, 28, exponent.whole, fraction)) << 4)
     }
 }

@@ -2,9 +2,9 @@
 //! arithmetic.
 
 use crate::baked::{S, SCENE};
+use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
-use octray_core::scalar::Scalar;
-use octray_core::shape::ObjectRef;
+use octray_core::scalar::{Ratio, Scalar};
 use octray_core::vec3::{Vec3, vec3};
 
 /// How many numbers.

@@ -1,23 +1,24 @@
 //! The kernels. Each is a function of its own, found by its name. Numbers come and go in registers,
 //! vectors and rays in memory.
 
-use crate::baked::{NEEDS, S, SCENE, Tree};
+use crate::baked::{FEATURES, S, SCENE, Tree};
 use core::hint::black_box;
+use octray_core::accel::{Accelerator, Hit};
+use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::observe::Observer;
-use octray_core::octree::{Accelerator, Hit};
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
 use octray_core::scene;
-use octray_core::shape::{self, Kind, ObjectRef};
+use octray_core::shape;
 use octray_core::trace::{Tracer, Workspace};
 use octray_core::vec3::Vec3;
 
-pub(super) type Scene = scene::Scene<'static, S, NEEDS>;
-pub(super) type Shapes = shape::Shapes<'static, S, NEEDS>;
+pub(super) type Scene = scene::Scene<'static, S, FEATURES>;
+pub(super) type Shapes = shape::Shapes<'static, S, FEATURES>;
 pub(super) type Dot = fn(&Vec3<S>, &Vec3<S>) -> S;
 pub(super) type Unit = fn(&Vec3<S>) -> Vec3<S>;
 pub(super) type Found = Option<Hit<S>>;
-pub(super) type Stack = <Tree as Accelerator<S, NEEDS>>::Stack;
+pub(super) type Stack = <Tree as Accelerator<S, FEATURES>>::Stack;
 pub(super) type Walk = fn(&Tree, &Ray<S>, &mut Stack) -> Found;
 pub(super) type Lit = fn(&Scene, ObjectRef, &Ray<S>) -> Vec3<S>;
 
@@ -64,32 +65,32 @@ pub(super) fn kernel_normalise(v: &Vec3<S>) -> Vec3<S> {
 
 #[inline(never)]
 pub(super) fn kernel_sphere(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
-    hit(shapes, Kind::Sphere, i, ray)
+    hit(shapes, ObjectKind::Sphere, i, ray)
 }
 
 #[inline(never)]
 pub(super) fn kernel_triangle(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
-    hit(shapes, Kind::Triangle, i, ray)
+    hit(shapes, ObjectKind::Triangle, i, ray)
 }
 
 #[inline(never)]
 pub(super) fn kernel_polygon(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
-    hit(shapes, Kind::Polygon, i, ray)
+    hit(shapes, ObjectKind::Polygon, i, ray)
 }
 
 #[inline(never)]
 pub(super) fn kernel_cone(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
-    hit(shapes, Kind::Cone, i, ray)
+    hit(shapes, ObjectKind::Cone, i, ray)
 }
 
 #[inline(never)]
 pub(super) fn kernel_box(shapes: &Shapes, i: usize, ray: &Ray<S>) -> Option<S> {
-    hit(shapes, Kind::Cuboid, i, ray)
+    hit(shapes, ObjectKind::Cuboid, i, ray)
 }
 
 #[inline(always)]
-fn hit(shapes: &Shapes, kind: Kind, i: usize, ray: &Ray<S>) -> Option<S> {
-    shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.reach, &mut ())
+fn hit(shapes: &Shapes, kind: ObjectKind, i: usize, ray: &Ray<S>) -> Option<S> {
+    shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.diameter, &mut ())
 }
 
 /// A search from end to end. The barrier, and the other's, keep the two from being one function.
@@ -130,7 +131,7 @@ fn lit(scene: &Scene, lights: usize, object: ObjectRef, ray: &Ray<S>) -> Vec3<S>
     let mut workspace = Workspace {
         rays: &mut [],
         stack: &mut (),
-        blockers: &mut [],
+        shadow_cache: &mut [],
     };
     tracer.radiance(*ray, &mut workspace, &mut ())
 }
@@ -138,24 +139,24 @@ fn lit(scene: &Scene, lights: usize, object: ObjectRef, ray: &Ray<S>) -> Vec3<S>
 /// One object that nothing shadows.
 struct Alone(ObjectRef);
 
-impl Accelerator<S, NEEDS> for Alone {
+impl Accelerator<S, FEATURES> for Alone {
     type Stack = ();
 
     fn nearest<O: Observer>(
         &self,
-        scene: &scene::Scene<'_, S, NEEDS>,
+        scene: &scene::Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         (): &mut (),
         _: &mut O,
     ) -> Option<Hit<S>> {
-        let t = scene.shapes.hit(self.0, ray, scene.reach, &mut ())?;
+        let t = scene.shapes.hit(self.0, ray, scene.diameter, &mut ())?;
         Some(Hit { t, object: self.0 })
     }
 
     // The ray is made, though nobody follows it.
     fn any_hit<O: Observer>(
         &self,
-        _: &scene::Scene<'_, S, NEEDS>,
+        _: &scene::Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
         (): &mut (),

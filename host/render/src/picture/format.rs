@@ -1,5 +1,7 @@
 //! The picture formats: told by a file's extension when written, by its first bytes when read.
 
+use super::malformed::malformed;
+use super::ras::RasDepth;
 use super::{Picture, pfm, png, ppm, ras};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
@@ -8,7 +10,6 @@ use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// A picture format, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,21 +22,6 @@ pub enum Format {
     Pfm,
     /// Sun rasterfile, see [`RasDepth`].
     Ras,
-}
-
-/// Bits per pixel of a Sun rasterfile.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
-)]
-#[strum(serialize_all = "kebab-case")]
-pub enum RasDepth {
-    /// 256 colours in a map; exact when the picture has no more.
-    #[default]
-    #[strum(serialize = "8")]
-    Eight,
-    /// True colour.
-    #[strum(serialize = "24")]
-    TwentyFour,
 }
 
 impl Format {
@@ -152,15 +138,10 @@ fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
     }
 }
 
-/// The error for a file that does not keep to its format.
-pub(super) fn malformed(what: impl Into<String>) -> io::Error {
-    io::Error::new(ErrorKind::InvalidData, what.into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::packet::Level;
+    use crate::tile::Level;
 
     /// More than 256 colours, no symmetry.
     fn colourful(width: u32, height: u32) -> Picture {

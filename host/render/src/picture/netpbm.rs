@@ -1,6 +1,6 @@
 //! The header that portable pixmaps and portable float maps share: words between white space.
 
-use super::format::malformed;
+use super::malformed::malformed;
 use std::io::{self, BufRead};
 use std::str::FromStr;
 

@@ -1,7 +1,7 @@
 //! A picture in at most 256 colours.
 
 use super::Picture;
-use crate::packet::Level;
+use crate::tile::Level;
 use std::ops::Range;
 
 /// How many colours there may be.

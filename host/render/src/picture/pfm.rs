@@ -1,8 +1,8 @@
 //! Portable float map: 32-bit floats, the bottom row first, the scale's sign telling the byte order.
 
-use super::format::malformed;
+use super::malformed::malformed;
 use super::{Picture, netpbm};
-use crate::packet::Intensity;
+use crate::tile::Intensity;
 use std::io::{self, BufRead, Write};
 
 /// Write the intensities little-endian; a picture without them gives level/255.

@@ -1,7 +1,7 @@
 //! PNG, 8-bit RGB, by the crate `png`.
 
 use super::Picture;
-use super::format::malformed;
+use super::malformed::malformed;
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use std::io::{self, BufRead, Cursor, Write};
 

@@ -1,6 +1,6 @@
 //! Portable pixmap, P6 with 255 levels.
 
-use super::format::malformed;
+use super::malformed::malformed;
 use super::{Picture, netpbm};
 use std::io::{self, BufRead, Write};
 

@@ -1,9 +1,25 @@
 //! Sun rasterfile: eight big-endian words, a colour map, rows padded to 16 bits (Sun's `rasterfile(5)`).
 
-use super::format::malformed;
-use super::{Picture, RasDepth, palette};
-use crate::packet::Level;
+use super::malformed::malformed;
+use super::{Picture, palette};
+use crate::tile::Level;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
+
+/// Bits per pixel of a Sun rasterfile.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
+)]
+#[strum(serialize_all = "kebab-case")]
+pub enum RasDepth {
+    /// 256 colours in a map; exact when the picture has no more.
+    #[default]
+    #[strum(serialize = "8")]
+    Eight,
+    /// True colour.
+    #[strum(serialize = "24")]
+    TwentyFour,
+}
 
 const MAGIC: u32 = 0x59a6_6a95;
 /// Types: raw data as in the oldest files, raw data, and raw data with red first.

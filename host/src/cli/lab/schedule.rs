@@ -4,14 +4,14 @@ use super::lists;
 use crate::cli::{files, value};
 use clap::{Args, value_parser};
 use octray_lab::canvas;
+use octray_lab::schedule::ScheduleJob;
 use octray_lab::simulate::Machine;
-use octray_lab::sweep::SweepJob;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
-use octray_render::deal::Policy;
 use octray_render::error::Error;
-use octray_render::packets::Shape;
 use octray_render::picture::Target;
+use octray_render::scheduler::Policy;
+use octray_render::tile::TileSize;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub struct ScheduleArgs {
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Arith,
-    /// Pixels that one ray colours; packets whose sides are odd are left out with 4
+    /// Pixels that one ray colours; tiles whose sides are odd are left out with 4
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel
@@ -53,13 +53,13 @@ pub struct ScheduleArgs {
     /// The kind of tree
     #[arg(long, value_name = "KIND", value_parser = value::choice::<TreeKind>(), default_value = TreeKind::default().name())]
     tree: TreeKind,
-    /// Instructions for which a packet that comes from others keeps them from handing out another
+    /// Instructions for which a tile that comes from others keeps them from handing out another
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
-    /// The same for each pixel of the packet, where pixels come back in messages
+    /// The same for each pixel of the tile, where pixels come back in messages
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     per_pixel: f64,
-    /// Every packet for others than the first processor comes in a message from it, whatever the policy, as with
+    /// Every tile for others than the first processor comes in a message from it, whatever the policy, as with
     /// 'octray render --mpi'
     #[arg(long)]
     messages: bool,
@@ -75,7 +75,7 @@ pub struct ScheduleArgs {
     /// Write every combination to a file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// Draw heat maps of packets by processors, and efficiency by processors: .svg, .png, .ppm or .ras
+    /// Draw heat maps of tiles by processors, and efficiency by processors: .svg, .png, .ppm or .ras
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -84,9 +84,9 @@ impl ScheduleArgs {
     /// The job that these arguments ask for.
     ///
     /// # Errors
-    /// [`Error::Usage`] when no packet is left with four pixels per ray, a result would replace the scene or
+    /// [`Error::Usage`] when no tile is left with four pixels per ray, a result would replace the scene or
     /// another result, or the chart's name says nothing known.
-    pub fn job(self) -> Result<SweepJob, Error> {
+    pub fn job(self) -> Result<ScheduleJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
         let results = [&self.output, &self.csv];
         files::distinct([&self.scene], results.into_iter().flatten())?;
@@ -96,15 +96,20 @@ impl ScheduleArgs {
         let even = self.pixels_per_ray == PixelsPerRay::Four;
         let fits = |side: &NonZeroU32| !even || side.get().is_multiple_of(2);
         let strips = self.tile_rows.0.into_iter().filter(fits);
-        let tiles = self.tile_sides.0.into_iter().filter(fits).map(Shape::tile);
-        let shapes: Vec<_> = strips.map(Shape::strip).chain(tiles).collect();
+        let tiles = self
+            .tile_sides
+            .0
+            .into_iter()
+            .filter(fits)
+            .map(TileSize::tile);
+        let shapes: Vec<_> = strips.map(TileSize::strip).chain(tiles).collect();
         if shapes.is_empty() {
             return usage(
                 "with --pixels-per-ray 4, a side of --tile-rows or --tile-sides must be even",
             );
         }
         let processors = self.processors.0.into_iter();
-        Ok(SweepJob {
+        Ok(ScheduleJob {
             scene: self.scene,
             processors: processors
                 .filter_map(|count: NonZeroU32| NonZeroUsize::try_from(count).ok())

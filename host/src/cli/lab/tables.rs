@@ -47,7 +47,7 @@ pub struct TablesArgs {
     /// Rows of a tile in table IX
     #[arg(long, alias = "packet-rows", value_name = "H", default_value = "4", value_parser = value::count)]
     tile_rows: NonZeroU32,
-    /// Instructions for which a packet that is handed out keeps others from theirs, in VIII and IX
+    /// Instructions for which a tile that is handed out keeps others from theirs, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
     /// By how much of itself each further busy processor slows all of them, in VIII and IX

@@ -5,9 +5,9 @@ use crate::number::{self, Number, counted};
 use crate::random::{self, Random};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::{Accelerator, List};
+use octray_core::accel::{Accelerator, BruteForce};
+use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
-use octray_core::shape::ObjectRef;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
 
@@ -140,12 +140,12 @@ fn squares(normal: [f64; 3], across: [f64; 3], heights: [f64; 2], eye: [f64; 3])
 fn shipped<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
     let scene = prepared.scene.scene();
     let all: Vec<ObjectRef> = scene.shapes.refs().collect();
-    let hit = List(&all).nearest(&scene, ray, &mut (), &mut ())?;
+    let hit = BruteForce(&all).nearest(&scene, ray, &mut (), &mut ())?;
     Some(hit.object.index() as u32)
 }
 
 fn last<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
-    let (shapes, mut limit, mut found) = (prepared.scene.shapes(), prepared.scene.reach, None);
+    let (shapes, mut limit, mut found) = (prepared.scene.shapes(), prepared.scene.diameter, None);
     for object in shapes.refs() {
         if let Some(t) = shapes.hit(object, ray, limit, &mut ()) {
             (limit, found) = (t, Some(object.index() as u32));

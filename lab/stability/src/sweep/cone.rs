@@ -1,14 +1,14 @@
 //! Cones: thin ones, near the apex, from far away.
 
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, exact3, near, root, sub, times};
+use crate::fixtures;
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats};
 use crate::random::{self, Random, dot as dot64};
 use crate::setting::Setting;
-use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
@@ -216,14 +216,14 @@ fn compare<S: Number>(
         radii: cone.radii.map(|r| exact(r) * &scale),
     };
     let truth = solid.first(&exactly(ray.origin), &exactly(ray.direction));
-    let shapes = stage::cone(&prepared.scene.cones[0]);
+    let shapes = fixtures::cone(&prepared.scene.cones[0]);
     let numbers = Numbers {
         base: place.point(cone.base),
         top: place.point(cone.top),
         radii: cone.radii.map(|r| place.length(r)),
     };
     let found = [
-        counted(|| stage::hit(&shapes, Kind::Cone, ray, S::MAX)),
+        counted(|| fixtures::hit(&shapes, ObjectKind::Cone, ray, S::MAX)),
         counted(|| textbook(&numbers, ray)),
     ];
     for ((found, saturations), tally) in found.into_iter().zip(tallies) {

@@ -5,11 +5,11 @@ use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::List;
+use octray_core::accel::BruteForce;
+use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
 use octray_core::scene::Surface;
-use octray_core::shape::ObjectRef;
-use octray_core::trace::{Pending, Tracer, Workspace};
+use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::{Vec3, vec3};
 use octray_prepare::quantise::Prepared;
 
@@ -107,14 +107,14 @@ fn light<S: Number>(prepared: &Prepared<S>, reflect: S, glow: S, max_depth: u32)
     let all: Vec<ObjectRef> = scene.shapes.refs().collect();
     let tracer = Tracer {
         scene: &scene,
-        accelerator: &List(&all),
+        accelerator: &BruteForce(&all),
         max_depth,
         cut_off: S::from_f64(CUT_OFF),
     };
     let mut workspace = Workspace {
-        rays: &mut [Pending::EMPTY; 2],
+        rays: &mut [QueuedRay::EMPTY; 2],
         stack: &mut (),
-        blockers: &mut [],
+        shadow_cache: &mut [],
     };
     let ray = Ray {
         origin: Vec3::ZERO,

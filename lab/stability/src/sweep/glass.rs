@@ -3,10 +3,10 @@
 use super::mirror::{BOUNDS, incidence, leaving, per_cosine};
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, root, times, unit};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
+use crate::mock_accelerator;
 use crate::number::{Number, counted, exactly};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::spy;
 use crate::tally::{Bounds, Tally, bound};
 use octray_core::vec3::Vec3;
 
@@ -132,7 +132,7 @@ fn truth(incoming: Exact3, normal: Exact3, ratio: &Exact) -> Option<Exact3> {
 }
 
 fn shipped<S: Number>(incoming: Vec3<S>, normal: Vec3<S>, ratio: S) -> Option<Vec3<S>> {
-    let seen = leaving(incoming, normal, spy::glass(ratio));
+    let seen = leaving(incoming, normal, mock_accelerator::glass(ratio));
     seen.follow.first().map(|ray| ray.direction)
 }
 

@@ -1,17 +1,17 @@
 //! Mirrors at grazing incidence.
 
 use crate::exact::{Exact, angle, dot, exact, sub, times};
+use crate::fixtures::{only, outline, polygon};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
+use crate::mock_accelerator::{self, Seen};
 use crate::number::{self, Number, counted, exactly};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::spy::{self, Seen};
-use crate::stage::{only, outline, polygon};
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::Hit;
+use octray_core::accel::Hit;
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::scene::Surface;
-use octray_core::shape::Kind;
 use octray_core::vec3::Vec3;
 
 /// Rays that meet a mirror at a cosine of 1 to 10⁻⁷.
@@ -100,13 +100,13 @@ pub(super) fn leaving<S: Number>(
     let plane = outline(normal, S::ZERO, &[]);
     let hit = Hit {
         t: S::ZERO,
-        object: only(Kind::Polygon),
+        object: only(ObjectKind::Polygon),
     };
-    spy::leaving(polygon(&plane, &[]), surface, &ray, hit)
+    mock_accelerator::leaving(polygon(&plane, &[]), surface, &ray, hit)
 }
 
 fn shipped<S: Number>(incoming: Vec3<S>, normal: Vec3<S>) -> Vec3<S> {
-    let seen = leaving(incoming, normal, spy::mirror());
+    let seen = leaving(incoming, normal, mock_accelerator::mirror());
     seen.follow.first().map_or(Vec3::ZERO, |ray| ray.direction)
 }
 

@@ -2,14 +2,14 @@
 //! close by (light leaks).
 
 use crate::method::{About, Form, SHIPPED, Sweep};
+use crate::mock_accelerator;
 use crate::number::{self, Number, counted};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::spy;
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::Hit;
+use octray_core::accel::Hit;
+use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
-use octray_core::shape::{Kind, ObjectRef};
 use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
@@ -71,7 +71,7 @@ impl Sweep for Offset {
             return tallies;
         };
         for case in 0..96 {
-            let kind = [Kind::Sphere, Kind::Polygon][case % 2];
+            let kind = [ObjectKind::Sphere, ObjectKind::Polygon][case % 2];
             let (eye, aim, outward) = incidence(kind, &mut random);
             let towards = number::direction::<S>(random::add(aim, random::times(eye, -1.0)));
             // Away from the surface, at an angle of 3 to 90 degrees against it.
@@ -111,8 +111,8 @@ fn surfaces(size: f64) -> Setting {
 }
 
 /// An eye, a point of the sphere or the square that it looks at, and the normal there.
-fn incidence(kind: Kind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64; 3]) {
-    if kind == Kind::Sphere {
+fn incidence(kind: ObjectKind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64; 3]) {
+    if kind == ObjectKind::Sphere {
         let outward = random.direction();
         let beside = random::times(random.across(outward), random.between(0.0, 2.0));
         let eye = random::add(random::times(outward, random.between(2.0, 3.0)), beside);
@@ -126,34 +126,34 @@ fn incidence(kind: Kind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64; 3]) 
 /// what is next. None if it does not come there in the first place.
 fn shipped<S: Number>(
     prepared: &Prepared<S>,
-    kind: Kind,
+    kind: ObjectKind,
     eye: [f64; 3],
     [towards, away]: [Vec3<S>; 2],
 ) -> Option<[bool; 2]> {
     let shapes = prepared.scene.shapes();
     let [from, next] = [0, 1].map(|i| ObjectRef::new(kind, i));
     let ray = number::ray(prepared.placement.point(eye), towards);
-    let t = shapes.hit(from, &ray, prepared.scene.reach, &mut ())?;
+    let t = shapes.hit(from, &ray, prepared.scene.diameter, &mut ())?;
     let hit = Hit { t, object: from };
-    let seen = spy::leaving(shapes, spy::mirror(), &ray, hit);
+    let seen = mock_accelerator::leaving(shapes, mock_accelerator::mirror(), &ray, hit);
     let leaving = Ray {
         origin: seen.follow.first()?.origin,
         direction: away,
     };
-    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.reach, &mut ());
+    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.diameter, &mut ());
     Some([meets(from), meets(next)])
 }
 
 /// The same in scene units, where hits below a fixed distance do not count.
 fn epsilon<S: Number>(
-    kind: Kind,
+    kind: ObjectKind,
     size: f64,
     eye: [f64; 3],
     [towards, away]: [Vec3<S>; 2],
 ) -> Option<[bool; 2]> {
     let number = |x: f64| S::from_f64(x * size);
     let roots = |i: usize, ray: &Ray<S>| match kind {
-        Kind::Sphere => sphere(number(RADII[i]), ray),
+        ObjectKind::Sphere => sphere(number(RADII[i]), ray),
         _ => square(SQUARES[i].map(number), ray),
     };
     let least = S::from_f64(EPSILON);

@@ -1,14 +1,15 @@
 //! Planes that a ray is nearly parallel to.
 
 use crate::exact::{Exact, dot, near};
+use crate::fixtures::{self, outline, polygon, square};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage::{self, outline, polygon, square};
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::{Flat, Kind};
+use octray_core::shape::Plane as CorePlane;
 
 /// Rays along a plane, at a slope of 1 to 10⁻⁷ against it.
 #[derive(Debug)]
@@ -69,7 +70,7 @@ impl Sweep for Plane {
             let truth = truth(&square.plane, &ray).filter(|t| *t <= limit.exact());
             let shipped = || {
                 let shapes = polygon(&square, &corners);
-                Some(stage::hit(&shapes, Kind::Polygon, &ray, limit)?.0)
+                Some(fixtures::hit(&shapes, ObjectKind::Polygon, &ray, limit)?.0)
             };
             let textbook = || textbook(&square.plane, &ray, limit);
             let found = [counted(shipped), counted(textbook)];
@@ -86,7 +87,7 @@ impl Sweep for Plane {
 }
 
 /// Where the line meets the plane, if that is ahead.
-pub(super) fn truth<S: Number>(plane: &Flat<S>, ray: &Ray<S>) -> Option<Exact> {
+pub(super) fn truth<S: Number>(plane: &CorePlane<S>, ray: &Ray<S>) -> Option<Exact> {
     let normal = exactly(plane.normal);
     let rise = dot(&normal, &exactly(ray.direction));
     if rise == Exact::ZERO {
@@ -97,7 +98,7 @@ pub(super) fn truth<S: Number>(plane: &Flat<S>, ray: &Ray<S>) -> Option<Exact> {
 }
 
 /// The reciprocal is a number of the format, as on machines that do not divide.
-fn textbook<S: Number>(plane: &Flat<S>, ray: &Ray<S>, limit: S) -> Option<S> {
+fn textbook<S: Number>(plane: &CorePlane<S>, ray: &Ray<S>, limit: S) -> Option<S> {
     let reciprocal = S::ONE.quotient(plane.normal.dot(ray.direction));
     let t = (plane.offset - plane.normal.dot(ray.origin)) * reciprocal;
     (t > S::ZERO && t <= limit).then_some(t)

@@ -1,14 +1,14 @@
 //! Points in polygons: on and near vertices, edges and diagonals.
 
 use crate::exact::Exact;
+use crate::fixtures::{self, outline, polygon};
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted, span, vector};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::stage::{self, outline, polygon};
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::Kind;
 
 /// Queries at 10⁻¹ to 10⁻⁹ of a polygon's size from its vertices, edges and diagonals, and from the
 /// lines on which the thesis's ray meets a vertex; and on them. A hit is a point inside.
@@ -196,7 +196,13 @@ pub fn shipped<S: Number>(query: Query<S>) -> bool {
         direction: vector([0.0, 0.0, -1.0]),
     };
     let star = outline(vector([0.0, 0.0, 1.0]), S::ZERO, &query.corners);
-    stage::hit(&polygon(&star, &query.corners), Kind::Polygon, &ray, S::MAX).is_some()
+    fixtures::hit(
+        &polygon(&star, &query.corners),
+        ObjectKind::Polygon,
+        &ray,
+        S::MAX,
+    )
+    .is_some()
 }
 
 /// The thesis's rule: a ray from the point through the middle of the first edge; the point is

@@ -1,14 +1,15 @@
 //! Boxes: rays along their faces and past their edges and corners.
 
 use crate::exact::{Exact, exact, near};
+use crate::fixtures::{cuboid, hit};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage::{cuboid, hit};
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::{Cuboid, Kind};
+use octray_core::shape::Cuboid;
 use octray_core::vec3::Axis;
 
 /// Rays at a slope of 1 to 10⁻⁷ against a face of a box, aimed a little inside and outside of its
@@ -69,7 +70,7 @@ impl Sweep for Slab {
                 number::ray(random::add(edge, back), direction)
             };
             let truth = truth(&block, &ray);
-            let shipped = || Some(hit(&cuboid(&block), Kind::Cuboid, &ray, S::MAX)?.0);
+            let shipped = || Some(hit(&cuboid(&block), ObjectKind::Cuboid, &ray, S::MAX)?.0);
             let found = [counted(shipped), counted(|| textbook(&block, &ray))];
             for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
                 tally.saturations += saturations;

@@ -1,14 +1,15 @@
 //! A sphere seen from far away.
 
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, near, root, sub, times};
+use crate::fixtures;
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::stage;
 use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
-use octray_core::shape::{self, Kind};
+use octray_core::shape;
 use octray_core::vec3::Vec3;
 
 /// Rays that pass a sphere's centre at 0 to 2 radii (see `AIMS`), from a distance of 2 to 10⁷ radii.
@@ -125,7 +126,7 @@ pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Optio
 
 /// What octray does.
 pub(super) fn stable<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
-    stage::hit(&stage::sphere(sphere), Kind::Sphere, ray, S::MAX)
+    fixtures::hit(&fixtures::sphere(sphere), ObjectKind::Sphere, ray, S::MAX)
 }
 
 /// Thesis (2.8). The difference is formed in the wide type, so that fixed point has a chance.

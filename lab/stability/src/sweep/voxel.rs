@@ -7,13 +7,14 @@ use crate::number::{self, Number, counted, floats};
 use crate::random::{self, Random};
 use crate::setting::Setting;
 use crate::tally::{Bounds, Tally, bound};
-use octray_core::octree::{Accelerator, Link, Options, Variant};
+use octray_core::accel::{Accelerator, BuildOptions, LinkBy, OctreeVariant};
+use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
 use octray_core::scene::Scene;
-use octray_core::shape::{self, Kind, ObjectRef, Shapes};
+use octray_core::shape::{self, Shapes};
 use octray_core::vec3::{Axis, Vec3};
 use octray_prepare::quantise::Prepared;
-use octray_prepare::tree::{Growth, OctantTree, TightTree};
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedOctree};
 use octray_scenes::model::Shape;
 
 /// Rays along axes and diagonals, or at a slope of 1 to 10⁻⁷ against them, through corners of cells
@@ -64,7 +65,7 @@ impl Sweep for Voxel {
             return tallies;
         };
         let growth = Growth {
-            options: Options {
+            options: BuildOptions {
                 depth: 3,
                 leaf_size: 1,
             },
@@ -72,8 +73,9 @@ impl Sweep for Voxel {
         };
         // Building a tree puts the objects into its own order.
         let (mut in_tight, mut in_octants) = (prepared.scene.clone(), prepared.scene.clone());
-        let (tight, _) = TightTree::build(&mut in_tight, &growth);
-        let (octants, _) = OctantTree::build(&mut in_octants, &growth, Variant::Plain, Link::Box);
+        let (tight, _) = OwnedBvh8::build(&mut in_tight, &growth);
+        let (octants, _) =
+            OwnedOctree::build(&mut in_octants, &growth, OctreeVariant::Plain, LinkBy::Box);
         let (in_tight, in_octants) = (in_tight.scene(), in_octants.scene());
         let (tight, octants) = (tight.tree(), octants.tree());
         let grid = Grid::new(&prepared);
@@ -274,7 +276,8 @@ impl<S: Number> Grid<S> {
             let first = ids
                 .iter()
                 .filter_map(|&id| {
-                    let hit = shapes.hit(ObjectRef::new(Kind::Sphere, id), ray, t, &mut ())?;
+                    let hit =
+                        shapes.hit(ObjectRef::new(ObjectKind::Sphere, id), ray, t, &mut ())?;
                     Some((hit, id))
                 })
                 .reduce(|a, b| if b.0 < a.0 { b } else { a });

@@ -1,0 +1,49 @@
+//! Boxes while a tree is built: unions, sides, centres.
+
+use super::bound::BoundScalar;
+use super::scalar::AccelScalar;
+use crate::ray::Aabb;
+use crate::vec3::{Axis, Vec3, vec3};
+
+/// The empty box: its union with another is the other.
+pub(super) fn empty_box<B: BoundScalar>() -> Aabb<B> {
+    Aabb {
+        low: vec3(B::MAX, B::MAX, B::MAX),
+        high: vec3(B::MIN, B::MIN, B::MIN),
+    }
+}
+
+/// The smallest box around two.
+pub(super) fn union<B: BoundScalar>(a: Aabb<B>, b: Aabb<B>) -> Aabb<B> {
+    let mut both = a;
+    for axis in Axis::ALL {
+        both.low[axis] = a.low[axis].min(b.low[axis]);
+        both.high[axis] = a.high[axis].max(b.high[axis]);
+    }
+    both
+}
+
+/// A shape's box in the numbers that trees hold boxes in, exactly.
+pub(super) fn to_bounds<S: AccelScalar>(bounds: Aabb<S>) -> Aabb<S::Bound> {
+    Aabb {
+        low: bounds.low.map(S::to_bound),
+        high: bounds.high.map(S::to_bound),
+    }
+}
+
+/// The sides of a box, none of them negative.
+pub(super) fn side_lengths<B: BoundScalar>(bounds: &Aabb<B>) -> [B; 3] {
+    Axis::ALL.map(|a| {
+        if bounds.low[a] < bounds.high[a] {
+            bounds.high[a].difference(bounds.low[a])
+        } else {
+            B::ZERO
+        }
+    })
+}
+
+/// The middle of a box.
+pub(super) fn centroid<B: BoundScalar>(bounds: &Aabb<B>) -> Vec3<B> {
+    let [x, y, z] = Axis::ALL.map(|a| bounds.low[a].midpoint(bounds.high[a]));
+    vec3(x, y, z)
+}

@@ -1,0 +1,87 @@
+//! The walk of a ray through the octrees.
+
+use super::Octree;
+use super::node::OctreeNode;
+use crate::accel::bound::BoundScalar;
+use crate::accel::inv_direction::InvDirection;
+use crate::accel::query::{Query, accelerate};
+use crate::accel::scalar::AccelScalar;
+use crate::accel::stack::TraversalStack;
+use crate::features::FeatureSet;
+use crate::observe::Observer;
+use crate::vec3::Axis;
+
+impl<B: BoundScalar> Octree<'_, B> {
+    /// Cells are visited in the order in which the ray enters them.
+    #[inline(always)]
+    fn walk<S: AccelScalar<Bound = B>, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
+        &self,
+        query: &mut Query<'_, S, O, ANY, FEATURES>,
+        stack: &mut TraversalStack<B>,
+    ) {
+        let origin = query.ray.origin.map(S::to_bound);
+        let inv_direction = query.ray.direction.map(S::inv_direction);
+        let enter = |node: &OctreeNode<B>, limit: B| {
+            let (mut entry, mut exit) = (B::ZERO, limit);
+            for axis in Axis::ALL {
+                let InvDirection {
+                    negative,
+                    near,
+                    far,
+                } = inv_direction[axis];
+                let (low, high) = (
+                    node.bounds.low[axis].round_down(),
+                    node.bounds.high[axis].round_up(),
+                );
+                let (first, last) = if negative { (high, low) } else { (low, high) };
+                entry = entry.max(first.distance(origin[axis], near));
+                exit = exit.min(last.distance(origin[axis], far));
+            }
+            (entry <= exit).then_some(entry)
+        };
+        let Some(root) = self.nodes.first() else {
+            return;
+        };
+        if enter(root, query.limit.to_bound()).is_none() {
+            return;
+        }
+        stack.0[0] = (0, B::ZERO);
+        // At most seven parts of each level wait: a `u8` counts them, see `STACK_SIZE`.
+        let mut waiting = 1u8;
+        while waiting > 0 {
+            waiting -= 1;
+            let (place, entry) = stack.0[usize::from(waiting)];
+            if entry > query.limit.to_bound() {
+                continue;
+            }
+            let Some(node) = self.nodes.get(place as usize) else {
+                continue;
+            };
+            query.observer.step(1);
+            let start = node.first as usize;
+            let end = start + node.count() as usize;
+            if node.is_leaf() {
+                if query.test_list(self.links.get(start..end).unwrap_or_default()) {
+                    return;
+                }
+                continue;
+            }
+            let base = waiting;
+            let parts = self.nodes.get(start..end).unwrap_or_default();
+            for (part, place) in parts.iter().zip(node.first..) {
+                let Some(entry) = enter(part, query.limit.to_bound()) else {
+                    continue;
+                };
+                let mut at = waiting;
+                while at > base && stack.0[usize::from(at - 1)].1 < entry {
+                    stack.0[usize::from(at)] = stack.0[usize::from(at - 1)];
+                    at -= 1;
+                }
+                stack.0[usize::from(at)] = (place, entry);
+                waiting = waiting.wrapping_add(1);
+            }
+        }
+    }
+}
+
+accelerate!([] Octree<'_, S::Bound>, stack: TraversalStack<S::Bound>, scalar: AccelScalar);

@@ -1,0 +1,133 @@
+//! A query: a ray, and what a walk has found of what it meets.
+
+use super::accelerator::Hit;
+use crate::features::FeatureSet;
+use crate::object::ObjectRef;
+use crate::observe::Observer;
+use crate::ray::Ray;
+use crate::scalar::{Scalar, Tolerance};
+use crate::scene::Scene;
+
+/// A query for the first object a ray meets, or with `ANY` for any object nearer than the limit.
+pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: FeatureSet> {
+    pub(super) scene: &'a Scene<'a, S, FEATURES>,
+    pub(super) ray: &'a Ray<S>,
+    /// Nothing beyond this distance matters any more.
+    pub(super) limit: S,
+    pub(super) found: Option<ObjectRef>,
+    pub(super) observer: &'a mut O,
+}
+
+impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
+    Query<'a, S, O, ANY, FEATURES>
+{
+    #[inline(always)]
+    pub(super) fn new(
+        scene: &'a Scene<'a, S, FEATURES>,
+        ray: &'a Ray<S>,
+        limit: S,
+        observer: &'a mut O,
+    ) -> Self {
+        Self {
+            scene,
+            ray,
+            limit,
+            found: None,
+            observer,
+        }
+    }
+
+    /// Tests the objects of a list up to the marked one. True if the query is over.
+    #[inline(always)]
+    pub(super) fn test_list(&mut self, links: &[ObjectRef]) -> bool {
+        for &object in links {
+            let shapes = &self.scene.shapes;
+            let hit = shapes.hit(object, self.ray, self.limit, self.observer);
+            self.observer.test(object.kind(), hit.is_some());
+            if let Some(t) = hit {
+                if ANY {
+                    self.found = Some(object);
+                    return true;
+                }
+                let first = |found| precedes(self.scene, object, found);
+                if t < self.limit || self.found.is_none_or(first) {
+                    self.limit = t;
+                    self.found = Some(object);
+                }
+            }
+            if object.is_last() {
+                break;
+            }
+        }
+        false
+    }
+
+    #[inline(always)]
+    pub(super) fn hit(self) -> Option<Hit<S>> {
+        self.found.map(|object| Hit {
+            t: self.limit,
+            object,
+        })
+    }
+}
+
+/// Whether an object at the very distance of the one found comes before it in the scene file.
+#[cold]
+#[inline(never)]
+fn precedes<S: Scalar, const FEATURES: FeatureSet>(
+    scene: &Scene<'_, S, FEATURES>,
+    object: ObjectRef,
+    found: ObjectRef,
+) -> bool {
+    let id = |object| scene.attributes_of(object).id;
+    id(object) < id(found)
+}
+
+/// Implements [`Accelerator`](super::Accelerator) by a type's method `walk`, which takes a query and
+/// a stack.
+///
+/// Never inlined: with one copy of the walk per use the tracer fits the code cache.
+macro_rules! accelerate {
+    ([$($generics:tt)*] $accelerator:ty, stack: $stack:ty, scalar: $scalar:ident) => {
+        impl<S: $scalar, const FEATURES: $crate::features::FeatureSet $($generics)*>
+            $crate::accel::accelerator::Accelerator<S, FEATURES> for $accelerator
+        {
+            type Stack = $stack;
+
+            #[inline(never)]
+            fn nearest<O: $crate::observe::Observer>(
+                &self,
+                scene: &$crate::scene::Scene<'_, S, FEATURES>,
+                ray: &$crate::ray::Ray<S>,
+                stack: &mut $stack,
+                observer: &mut O,
+            ) -> Option<$crate::accel::accelerator::Hit<S>> {
+                let mut query = $crate::accel::query::Query::<_, _, false, FEATURES>::new(
+                    scene,
+                    ray,
+                    scene.diameter,
+                    observer,
+                );
+                self.walk(&mut query, stack);
+                query.hit()
+            }
+
+            #[inline(never)]
+            fn any_hit<O: $crate::observe::Observer>(
+                &self,
+                scene: &$crate::scene::Scene<'_, S, FEATURES>,
+                ray: &$crate::ray::Ray<S>,
+                limit: S,
+                stack: &mut $stack,
+                observer: &mut O,
+            ) -> Option<$crate::object::ObjectRef> {
+                let mut query =
+                    $crate::accel::query::Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+                self.walk(&mut query, stack);
+                query.found
+            }
+        }
+    };
+}
+
+pub(super) use accelerate;

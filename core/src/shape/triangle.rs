@@ -1,0 +1,66 @@
+//! The triangle.
+
+use super::even_odd::crosses;
+use super::plane::Plane;
+use crate::ray::{Aabb, Ray};
+use crate::scalar::{Scalar, Tolerance};
+
+/// A polygon of three vertices.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Triangle<S> {
+    /// Its plane.
+    pub plane: Plane<S>,
+    /// The vertices, projected.
+    pub corners: [[S; 2]; 3],
+    /// Its extent along the projection axis, with slack.
+    pub depth: [S; 2],
+}
+
+impl<S: Tolerance> Triangle<S> {
+    #[inline(always)]
+    pub(super) fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
+        let t = self.plane.hit(ray, limit)?;
+        let point = ray.at(t);
+        let p = self.plane.project(point);
+        let [a, b, c] = self.corners;
+        if !(crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p)) {
+            return None;
+        }
+        // Rounding must not let the parity be odd outside the triangle's own box.
+        let depth = point[self.plane.axis];
+        let inside = self.range(0).contains(p[0])
+            && self.range(1).contains(p[1])
+            && self.depth[0] <= depth
+            && depth <= self.depth[1];
+        inside.then_some(t)
+    }
+
+    #[inline(always)]
+    fn range(&self, i: usize) -> Range<S> {
+        let [a, b, c] = self.corners;
+        Range(a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]))
+    }
+
+    /// The box that all hits lie in.
+    pub(super) fn bounds(&self) -> Aabb<S> {
+        let (u, v) = self.plane.axis.others();
+        let mut bounds = Aabb::default();
+        for (axis, Range(low, high)) in [(u, self.range(0)), (v, self.range(1))] {
+            bounds.low[axis] = low;
+            bounds.high[axis] = high;
+        }
+        bounds.low[self.plane.axis] = self.depth[0];
+        bounds.high[self.plane.axis] = self.depth[1];
+        bounds
+    }
+}
+
+struct Range<S>(S, S);
+
+impl<S: Scalar> Range<S> {
+    #[inline(always)]
+    fn contains(&self, x: S) -> bool {
+        self.0 <= x && x <= self.1
+    }
+}
