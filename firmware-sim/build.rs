@@ -5,7 +5,7 @@
 //! | `OCTRAY_SCENE` | the scene file, from the workspace's folder | `scenes/figure-22.scene` |
 //! | `OCTRAY_ARITH` | the arithmetic | `auto` |
 //! | `OCTRAY_SIZE` | columns x rows | `160x120` |
-//! | `OCTRAY_TREE` | `packed`, `device` (built on the board), `none`, or `auto`: `packed` where it pays | `auto` |
+//! | `OCTRAY_TREE` | `compact-bvh8`, `device` (the same, built on the board), `none`, or `auto`: whichever costs less | `auto` |
 //! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
 //! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
@@ -13,12 +13,12 @@
 //! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
-use octray_core::accel::{self, COMPACT_MAX_DEPTH};
-use octray_scenes::bake::{Options, Tree, bake};
+use octray_prepare::bake::{BakeOptions, bake};
+use octray_prepare::choice::Choice;
+use octray_prepare::plan::{Plan, PlanError};
+use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings, TreeSettings};
 use octray_scenes::model::Scene;
-use octray_scenes::plan::{Plan, PlanError};
-use octray_scenes::quantise::View;
-use octray_scenes::target::Test;
+use std::num::NonZeroU32;
 use std::path::Path;
 use std::{env, fs, process};
 
@@ -35,10 +35,19 @@ fn variable(name: &str, default: &str) -> String {
     env::var(name).unwrap_or_else(|_| default.into())
 }
 
-fn number(name: &str, default: &str) -> Result<u32, String> {
-    let text = variable(name, default);
+fn number(name: &str, default: u32) -> Result<u32, String> {
+    let text = variable(name, &default.to_string());
     text.parse()
         .map_err(|_| format!("{name}={text}: expected a number"))
+}
+
+/// One of a list of names.
+fn named<T: Choice>(name: &str, default: &str) -> Result<T, String> {
+    let text = variable(name, default);
+    T::named(&text).ok_or_else(|| {
+        let known: Vec<_> = T::all().into_iter().map(T::name).collect();
+        format!("{name}={text}: expected one of {}", known.join(", "))
+    })
 }
 
 fn run() -> Result<(), String> {
@@ -78,67 +87,58 @@ fn baked() -> Result<String, String> {
     let plan = variable("OCTRAY_PLAN", "");
     if !plan.is_empty() {
         let plan = read_plan(&Path::new("..").join(plan))?;
-        if let Tree::Device(_) = plan.tree {
-            println!("cargo::rustc-cfg=octray_device_tree");
-        }
         let options = plan.options(&scene, &name);
         let options = options.map_err(|error| format!("OCTRAY_PLAN: {error}"))?;
-        return baked_as(&scene, plan.arith, &options);
+        return baked_as(&scene, &options);
     }
     let size = variable("OCTRAY_SIZE", "160x120");
     let (width, height) = (size.split_once('x'))
         .and_then(|(w, h)| Some((w.parse::<u16>().ok()?, h.parse::<u16>().ok()?)))
         .filter(|(w, h)| *w > 0 && *h > 0)
         .ok_or_else(|| format!("OCTRAY_SIZE={size}: expected columns x rows such as 160x120"))?;
-    let pixels_per_ray = number("OCTRAY_PIXELS_PER_RAY", "1")?;
-    if ![1, 4].contains(&pixels_per_ray) {
-        return Err(format!(
-            "OCTRAY_PIXELS_PER_RAY={pixels_per_ray}: expected 1 or 4"
-        ));
-    }
-    let arith = variable("OCTRAY_ARITH", "auto");
-    let test = Test::of(&arith, &env::var("TARGET").unwrap_or_default());
-    let options = accel::BuildOptions {
-        depth: COMPACT_MAX_DEPTH,
-        leaf_size: number("OCTRAY_LEAF_SIZE", &test.leaf_size().to_string())?,
-    };
-    let tree = match &*variable("OCTRAY_TREE", "auto") {
-        "auto" if scene.objects.len() < test.least_objects() => Tree::None,
-        "packed" | "auto" => Tree::Packed(options),
-        "device" => {
-            println!("cargo::rustc-cfg=octray_device_tree");
-            Tree::Device(options)
-        }
-        "none" => Tree::None,
-        other => {
-            let known = "packed, device, none or auto";
-            return Err(format!("OCTRAY_TREE={other}: expected {known}"));
-        }
-    };
-    let options = Options {
+    let target = env::var("TARGET").unwrap_or_default();
+    let arith: Arith = named("OCTRAY_ARITH", "auto")?;
+    let tree: FirmwareTree = named("OCTRAY_TREE", "auto")?;
+    let max_depth = number("OCTRAY_MAX_DEPTH", RenderSettings::DEFAULT.max_depth)?;
+    let format = arith.format(&scene, max_depth);
+    let kind = tree.kind_for(scene.objects.len(), format, Some(&target));
+    let options = BakeOptions {
         name: &name,
-        view: View {
+        settings: RenderSettings {
+            arith,
+            tree: TreeSettings {
+                // 0 stands for the default.
+                leaf_size: NonZeroU32::new(number("OCTRAY_LEAF_SIZE", 0)?),
+                ..TreeSettings::of(kind)
+            },
             size: Some((width.into(), height.into())),
-            pixels_per_ray,
-            samples: 1,
-            max_depth: number("OCTRAY_MAX_DEPTH", "8")?,
+            pixels_per_ray: named::<PixelsPerRay>("OCTRAY_PIXELS_PER_RAY", "1")?,
+            max_depth,
+            cut_off: cut_off()?,
+            ..RenderSettings::DEFAULT
         },
-        cut_off: cut_off()?,
-        tree,
+        on_device: tree.on_device,
+        target: Some(&target),
         rays: None,
     };
-    baked_as(&scene, &arith, &options)
+    baked_as(&scene, &options)
 }
 
 fn cut_off() -> Result<f64, String> {
-    let text = variable("OCTRAY_CUT_OFF", "0.001953125");
+    let text = variable(
+        "OCTRAY_CUT_OFF",
+        &RenderSettings::DEFAULT.cut_off.to_string(),
+    );
     (text.parse().ok())
         .filter(|weight| (0.0..=1.0).contains(weight))
         .ok_or_else(|| format!("OCTRAY_CUT_OFF={text}: expected a number from 0 to 1"))
 }
 
-fn baked_as(scene: &Scene, arith: &str, options: &Options<'_>) -> Result<String, String> {
-    bake(scene, arith, options)
+fn baked_as(scene: &Scene, options: &BakeOptions<'_>) -> Result<String, String> {
+    if options.on_device {
+        println!("cargo::rustc-cfg=octray_device_tree");
+    }
+    bake(scene, options)
         .map(|baked| baked.source)
         .map_err(|error| error.to_string())
 }

@@ -19,9 +19,10 @@ use octray_core::ray::Ray;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::Axis;
-use octray_scenes::generate::{Kind, Spec};
-use octray_scenes::quantise::{Prepared, Quantised, View, quantise};
-use octray_scenes::saturation::PerThread;
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::{Prepared, Quantised, quantise};
+use octray_prepare::saturation::PerThread;
+use octray_scenes::generate::{SceneKind, Spec};
 use rays::{Rays, sign};
 
 /// Scenes in each arithmetic, and rays in each scene: more than a million rays in all.
@@ -161,7 +162,7 @@ fn extreme<S: Quantize>(rng: &mut Rng) -> S {
 fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
     let scene = if seed % 8 == 7 {
         let spec = Spec {
-            kind: Kind::Soup,
+            kind: SceneKind::Soup,
             objects: 10 + seed as usize % 90,
         };
         octray_scenes::generate(spec, seed)
@@ -169,11 +170,9 @@ fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
         let text = strew::objects(seed);
         octray_scenes::parse(&text).unwrap_or_else(|e| panic!("{}", e.draw("strewn", &text)))
     };
-    let view = View {
+    let view = RenderSettings {
         size: Some((8, 8)),
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 8,
+        ..RenderSettings::DEFAULT
     };
     quantise::<S>(&scene, &view).expect("the scene fits every format")
 }

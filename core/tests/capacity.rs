@@ -9,15 +9,15 @@ use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
 use octray_core::trace::{QueuedRay, Tracer, Workspace, required_rays};
 use octray_core::vec3::Vec3;
-use octray_scenes::generate::{Kind, Spec, generate};
-use octray_scenes::quantise::{Prepared, View, quantise};
-use octray_scenes::tree::{Growth, PackedTree, every_object};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::{Prepared, quantise};
+use octray_prepare::tree::{Growth, OwnedCompactBvh8, every_object};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 
-const VIEW: View = View {
+const VIEW: RenderSettings = RenderSettings {
     size: Some((64, 48)),
-    pixels_per_ray: 1,
-    samples: 1,
     max_depth: 4,
+    ..RenderSettings::DEFAULT
 };
 
 /// Glass spheres between two lights.
@@ -29,8 +29,8 @@ fn glass() -> Prepared<f32> {
     quantise::<f32>(&octray_scenes::parse(GLASS).unwrap(), &VIEW).unwrap()
 }
 
-fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {
-    let kind = Kind::Soup;
+fn grown(objects: usize) -> (Prepared<f32>, OwnedCompactBvh8) {
+    let kind = SceneKind::Soup;
     let mut prepared = quantise::<f32>(&generate(Spec { kind, objects }, 3), &VIEW).unwrap();
     let options = BuildOptions {
         depth: 24,
@@ -40,7 +40,7 @@ fn grown(objects: usize) -> (Prepared<f32>, PackedTree) {
         options,
         arena: None,
     };
-    let (tree, _) = PackedTree::build(&mut prepared.scene, &growth).unwrap();
+    let (tree, _) = OwnedCompactBvh8::build(&mut prepared.scene, &growth).unwrap();
     (prepared, tree)
 }
 

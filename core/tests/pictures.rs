@@ -7,17 +7,16 @@ use octray_core::observe::Counters;
 use octray_core::quantize::Quantize;
 use octray_core::scalar::Fixed;
 use octray_core::trace::{QueuedRay, Tracer, required_rays};
+use octray_prepare::quantise::{Prepared, quantise};
+use octray_prepare::saturation::PerThread;
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
+use octray_prepare::{Arith, Format, RenderSettings};
 use octray_scenes::model::Scene;
-use octray_scenes::quantise::{Prepared, View, finest, quantise};
-use octray_scenes::saturation::PerThread;
-use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
 use std::path::{Path, PathBuf};
 
-const VIEW: View = View {
+const VIEW: RenderSettings = RenderSettings {
     size: Some((64, 48)),
-    pixels_per_ray: 1,
-    samples: 1,
-    max_depth: 8,
+    ..RenderSettings::DEFAULT
 };
 
 /// Levels, and rays by kind.
@@ -47,14 +46,16 @@ fn pictures_are_the_same_in_f64() {
 
 #[test]
 fn pictures_are_the_same_in_the_finest_fixed_point() {
-    all_scenes(|scene, name| match finest(scene, VIEW.max_depth) {
-        "i4f28" => compare::<Fixed<28, PerThread>>(scene, name),
-        "i8f24" => compare::<Fixed<24, PerThread>>(scene, name),
-        "i12f20" => compare::<Fixed<20, PerThread>>(scene, name),
-        "i16f16" => compare::<Fixed<16, PerThread>>(scene, name),
-        "i20f12" => compare::<Fixed<12, PerThread>>(scene, name),
-        _ => compare::<Fixed<8, PerThread>>(scene, name),
-    });
+    all_scenes(
+        |scene, name| match Arith::Auto.format(scene, VIEW.max_depth) {
+            Format::I4F28 => compare::<Fixed<28, PerThread>>(scene, name),
+            Format::I8F24 => compare::<Fixed<24, PerThread>>(scene, name),
+            Format::I12F20 => compare::<Fixed<20, PerThread>>(scene, name),
+            Format::I16F16 => compare::<Fixed<16, PerThread>>(scene, name),
+            Format::I20F12 => compare::<Fixed<12, PerThread>>(scene, name),
+            _ => compare::<Fixed<8, PerThread>>(scene, name),
+        },
+    );
 }
 
 fn all_scenes(compare: impl Fn(&Scene, &str)) {
@@ -83,16 +84,16 @@ fn compare<S: Quantize>(scene: &Scene, name: &str) {
             arena,
         };
         let mut bvh8 = prepared();
-        let (tree, _) = TightTree::build(&mut bvh8.scene, &growth(24));
+        let (tree, _) = OwnedBvh8::build(&mut bvh8.scene, &growth(24));
         check(render(&bvh8, &tree.tree()), "bvh8");
         let mut compact = prepared();
-        let grown = PackedTree::build(&mut compact.scene, &growth(COMPACT_MAX_DEPTH));
+        let grown = OwnedCompactBvh8::build(&mut compact.scene, &growth(COMPACT_MAX_DEPTH));
         let (tree, _) = grown.unwrap();
         check(render(&compact, &tree.tree()), "compact bvh8");
         for variant in [OctreeVariant::Modified, OctreeVariant::Plain] {
             for link in [LinkBy::Shape, LinkBy::Box] {
                 let mut octree = prepared();
-                let (tree, _) = OctantTree::build(&mut octree.scene, &growth(8), variant, link);
+                let (tree, _) = OwnedOctree::build(&mut octree.scene, &growth(8), variant, link);
                 let what = format!("{variant:?} octree linked by {link:?}, arena {arena:?}");
                 check(render(&octree, &tree.tree()), &what);
             }

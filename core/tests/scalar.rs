@@ -5,7 +5,7 @@ use fixed::types::extra::{U8, U12, U16, U20, U24, U28, U32};
 use fixed::{FixedI32, FixedI64};
 use octray_core::quantize::Quantize;
 use octray_core::scalar::{Approx, Exponent, Fixed, Fixed64, SaturationCounter, Scalar};
-use octray_scenes::saturation::PerThread;
+use octray_prepare::saturation::PerThread;
 use proptest::prelude::*;
 
 /// The worst errors allowed. Floats: relative, in units of 2^−24 (`f64`: 2^−53), but for `power`.

@@ -20,8 +20,8 @@ use embedded_graphics_core::primitives::Rectangle;
 use marks::{octray_pause, octray_resume};
 use octray_core::accel::Accelerator;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
-use octray_firmware_sim::hash::HashPanel;
-use octray_firmware_sim::render::{ROWS, render};
+use octray_embedded::hash::HashPanel;
+use octray_embedded::render::{ROWS, render};
 use semihosting::process::exit;
 
 /// Renders, tells, exits.

@@ -1,15 +1,11 @@
-//! `octray bake`: a scene as constant tables, Rust source for a program without files.
+//! `octray bake`: turns a scene into constant tables, Rust source for a program without a file system.
 
-use crate::check;
-use crate::error::Error;
-use crate::interrupt::Interrupt;
-use crate::output;
-use clap::ValueEnum;
-use octray_core::accel::{self, COMPACT_MAX_DEPTH};
-use octray_engine::options::{Arith, PixelsPerRay};
-use octray_scenes::bake::{Options, Tree, bake};
-use octray_scenes::plan::Plan;
-use octray_scenes::quantise::View;
+use octray_prepare::bake::{BakeOptions, bake};
+use octray_prepare::plan::Plan;
+use octray_prepare::{FirmwareTree, RenderSettings};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -19,47 +15,27 @@ use std::path::{Path, PathBuf};
 pub struct BakeJob {
     /// The scene file.
     pub scene: PathBuf,
-    /// The arithmetic to render in.
-    pub arith: Arith,
-    /// Columns and rows; the scene's own if `None`.
-    pub size: Option<(u32, u32)>,
-    /// Pixels that one ray colours.
-    pub pixels_per_ray: PixelsPerRay,
-    /// What finds the objects.
-    pub tree: TreeKind,
-    /// The most bounces.
-    pub max_depth: u32,
-    /// The weight below which a ray is not traced, 0 to 1.
-    pub cut_off: f64,
-    /// Objects up to which a node is not divided.
-    pub leaf_size: u32,
-    /// A plan that says all of these.
+    /// What to render. Of the tree's settings only the leaf size is used.
+    pub settings: RenderSettings,
+    /// The tree.
+    pub tree: FirmwareTree,
+    /// The target's triple, if it is known.
+    pub target: Option<String>,
+    /// A plan that replaces all of these settings.
     pub plan: Option<PathBuf>,
     /// The Rust source; standard output if `None`.
     pub output: Option<PathBuf>,
 }
 
-/// The trees of baked scenes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum TreeKind {
-    /// Up to eight tight boxes per node in few bytes, walked in integers.
-    #[default]
-    Packed,
-    /// The same, built by the device in its own memory.
-    Device,
-    /// None: every ray tries every object.
-    None,
-}
-
-/// Bake the scene and write the source.
+/// Bakes the scene and writes the source.
 ///
 /// # Errors
-/// When the scene is refused, does not fit the arithmetic or the tree, or the source cannot be written.
+/// If the scene is refused, does not fit the arithmetic or the tree, or the source cannot be written.
 pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
     }
-    let scene = check::read(&job.scene)?;
+    let scene = octray_scenes::read(&job.scene)?;
     interrupt.check()?;
     let name = job
         .scene
@@ -68,37 +44,26 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .to_string_lossy()
         .into_owned();
     let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
-    let growth = accel::BuildOptions {
-        depth: COMPACT_MAX_DEPTH,
-        leaf_size: job.leaf_size,
-    };
-    let chosen = Options {
-        name: &name,
-        view: View {
-            size: job.size,
-            pixels_per_ray: job.pixels_per_ray.number(),
-            samples: 1,
-            max_depth: job.max_depth,
-        },
-        cut_off: job.cut_off,
-        tree: match job.tree {
-            TreeKind::Packed => Tree::Packed(growth),
-            TreeKind::Device => Tree::Device(growth),
-            TreeKind::None => Tree::None,
-        },
-        rays: None,
-    };
-    let (arith, options) = match &plan {
-        Some(plan) => {
-            let options = plan.options(&scene, &name);
-            (
-                plan.arith,
-                options.map_err(|why| Error::Failed(why.to_string()))?,
-            )
+    let options = match &plan {
+        Some(plan) => plan
+            .options(&scene, &name)
+            .map_err(|why| Error::Failed(why.to_string()))?,
+        None => {
+            let mut settings = job.settings;
+            let format = settings.arith.format(&scene, settings.max_depth);
+            let target = job.target.as_deref();
+            let objects = scene.objects.len();
+            settings.tree.kind = job.tree.kind_for(objects, format, target);
+            BakeOptions {
+                name: &name,
+                settings,
+                on_device: job.tree.on_device,
+                target,
+                rays: None,
+            }
         }
-        None => (job.arith.name(), chosen),
     };
-    let baked = bake(&scene, arith, &options).map_err(|error| Error::Failed(error.to_string()))?;
+    let baked = bake(&scene, &options).map_err(|error| Error::Failed(error.to_string()))?;
     interrupt.check()?;
     let write = |out: &mut dyn Write| -> io::Result<()> { out.write_all(baked.source.as_bytes()) };
     match &job.output {
@@ -107,10 +72,10 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
 }
 
-/// Reads a plan that `octray plan --emit` has written.
+/// Reads a plan that `octray plan --emit` wrote.
 ///
 /// # Errors
-/// If it cannot be read, or is none.
+/// If it cannot be read, or is not a plan.
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
     let text = fs::read_to_string(path).map_err(|cause| Error::read(path, cause))?;
     text.parse()

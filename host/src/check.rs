@@ -1,23 +1,22 @@
-//! `octray check`: what is in a scene, or what is wrong with it.
+//! `octray check`: prints what is in a scene, or what is wrong with it.
 
-use crate::error::Error;
-use crate::facts::Facts;
-use crate::interrupt::Interrupt;
-use crate::output;
-use octray_scenes::model::Scene;
-use std::path::{Path, PathBuf};
+use octray_render::counts::SceneCounts;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use std::path::PathBuf;
 
-/// Read each scene and tell in one line on standard output what is in it.
+/// Reads each scene and prints one line per scene with its contents.
 ///
 /// # Errors
-/// [`Error::Scene`] with the mistakes of all scenes that were refused, after the others were told.
+/// [`Error::Scene`] with the mistakes of all refused scenes, after the other scenes were reported.
 pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
     let mut refused = Vec::new();
     for path in scenes {
         interrupt.check()?;
-        match read(path) {
+        match octray_scenes::read(path).map_err(Error::from) {
             Ok(scene) => output::write_stdout(interrupt, |out| {
-                let (name, facts) = (path.display(), Facts::of(&scene));
+                let (name, facts) = (path.display(), SceneCounts::of(&scene));
                 writeln!(
                     out,
                     "{name}: {facts}, {} x {} pixels",
@@ -33,12 +32,4 @@ pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
     } else {
         Err(Error::Scene(refused.join("\n\n")))
     }
-}
-
-/// Read a scene.
-///
-/// # Errors
-/// [`Error::Scene`] when the file cannot be read or holds mistakes.
-pub fn read(path: &Path) -> Result<Scene, Error> {
-    octray_scenes::read(path).map_err(|error| Error::Scene(error.to_string()))
 }

@@ -1,75 +1,37 @@
-//! The command `octray`, as a library so that tests and reports can use its parts.
+//! The command `octray`, as a library so that tests can call it.
 //!
-//! In the order of the data: raw arguments ([`cli`]) become a checked job ([`job`], [`diff::DiffJob`]), which a
-//! command runs ([`render`], [`check`], [`mod@bake`], [`mod@generate`], [`diff`], [`measure`], [`plan`], [`stability`], [`chart`], [`tables`]) to an exit code ([`error`]).
-//!
-//! - [`picture`]: pictures, and the files that hold them; [`output`]: files that appear whole or not at all
-//! - [`packets`], [`deal`], [`threads`], [`assembly`]: the work cut into packets, dealt to threads, and put together
-//! - [`cost`], [`simulate`], [`sweep`]: what parts of a picture cost to trace, and how many processors would share that
-//! - [`packing`]: the shape of packets and the way to deal them that suit a scene
-//! - [`octray_engine`], [`trace`]: a scene made ready in some arithmetic with some tree, and the picture traced
-//! - `ranks`, with the feature `mpi`: the same spread over the ranks of an MPI job
-//! - [`interrupt`], [`progress`]: Ctrl-C and the progress bar
-//! - [`facts`], [`stats`], [`summary`]: what was in a scene and what it cost, as JSON or to read
-//! - [`canvas`]: what charts and maps are drawn on
-//! - [`metric`], [`heat`]: how far apart two pictures are, in numbers and as a picture
+//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`check`], [`mod@bake`],
+//! [`mod@generate`], [`diff`], or a command of the laboratory. [`main`] turns the result into an exit code. [`stats`]
+//! and [`summary`] are what `render` reports; `ranks`, with the feature `mpi`, distributes a rendering over the ranks
+//! of an MPI job.
 
-pub mod assembly;
 pub mod bake;
-pub mod canvas;
-pub mod chart;
 pub mod check;
 pub mod cli;
-pub mod cost;
-pub mod deal;
 pub mod diff;
-pub mod error;
-pub mod facts;
 pub mod generate;
-pub mod heat;
-pub mod interrupt;
 pub mod job;
-pub mod measure;
-pub mod metric;
-pub mod output;
-pub mod packets;
-pub mod packing;
-pub mod picture;
-pub mod plan;
-pub mod progress;
 #[cfg(feature = "mpi")]
 pub mod ranks;
 pub mod render;
-pub mod report;
-pub mod simulate;
-pub mod stability;
 pub mod stats;
 pub mod summary;
-pub mod sweep;
-pub mod tables;
-pub mod threads;
-pub mod trace;
 
 use clap::Parser;
 use cli::{Cli, Command};
-use error::Error;
-use interrupt::Interrupt;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Do what a command line of `octray` asks for; the exit code is that of [`launch`].
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    launch(arguments, |cli: Cli, interrupt| run(cli.command, interrupt))
-}
+/// The exit code of a process that was interrupted, as shells have it for Ctrl-C.
+pub const INTERRUPTED: u8 = 130;
 
-/// Do with `run` what a command line asks for; messages go to standard error. The exit code is 0 when done,
+/// Does what a command line of `octray` asks for. Messages go to standard error. The exit code is 0 when done,
 /// 1 when it failed, 2 for bad usage and 130 when interrupted.
-pub fn launch<A: Parser>(
-    arguments: impl IntoIterator<Item = OsString>,
-    run: impl FnOnce(A, &Interrupt) -> Result<(), Error>,
-) -> ExitCode {
-    let arguments = match A::try_parse_from(arguments) {
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Cli::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => {
             // Help or a complaint; if nobody reads it, so be it.
@@ -80,41 +42,60 @@ pub fn launch<A: Parser>(
             };
         }
     };
-    match Interrupt::on_signal().and_then(|interrupt| run(arguments, &interrupt)) {
+    match on_signal().and_then(|interrupt| run(arguments.command, &interrupt)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            tell(&error);
-            error.exit_code()
+            report_error(&error);
+            exit_code(&error)
         }
     }
+}
+
+/// A flag that Ctrl-C, a termination or a hang-up of the terminal sets; a second one ends the process at once, in case
+/// it is stuck where nothing polls.
+fn on_signal() -> Result<Interrupt, Error> {
+    let interrupt = Interrupt::new();
+    let flag = interrupt.clone();
+    ctrlc::set_handler(move || {
+        if flag.requested() {
+            std::process::exit(INTERRUPTED.into());
+        }
+        flag.request();
+    })
+    .map_err(|cause| Error::Failed(format!("cannot watch for Ctrl-C: {cause}")))?;
+    Ok(interrupt)
 }
 
 fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
     match command {
         Command::Render(args) => {
             let job = args.job()?;
-            match job.work.mpi {
+            match job.mpi {
                 #[cfg(feature = "mpi")]
                 true => ranks::render(&job, interrupt),
-                _ => render::run(&job, interrupt, trace::trace),
+                _ => render::run(&job, interrupt, render::trace),
             }
         }
         Command::Check(args) => check::run(&args.scenes, interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
         Command::Diff(args) => diff::run(&args.job()?, interrupt),
-        Command::Measure(args) => measure::run(&args.job()?, interrupt),
-        Command::Plan(args) => plan::run(&args.job()?, interrupt),
-        Command::Schedule(args) => sweep::run(&args.job()?, interrupt),
-        Command::Chart(args) => chart::run(&args.job()?, interrupt),
-        Command::Report(args) => report::run(&args.job()?, interrupt),
-        Command::Stability(args) => stability::run(&args.job()?, interrupt),
-        Command::Tables(args) => tables::run(&args.job()?, interrupt),
+        Command::Lab(command) => command.run(interrupt),
     }
 }
 
-/// Write a failure to standard error, in the form that bad arguments are told in.
-fn tell(error: &Error) {
+/// 2 for bad usage, 130 for an interrupt, 0 for a reader of standard output that went away, 1 for the rest.
+fn exit_code(error: &Error) -> ExitCode {
+    ExitCode::from(match error {
+        Error::Usage(_) => 2,
+        Error::Interrupted => INTERRUPTED,
+        Error::BrokenPipe => 0,
+        _ => 1,
+    })
+}
+
+/// Writes a failure to standard error, in the form in which bad arguments are reported.
+fn report_error(error: &Error) {
     let mut stderr = io::stderr().lock();
     // Nothing is left to do if that fails.
     let _ = match error {

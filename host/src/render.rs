@@ -1,61 +1,56 @@
-//! `octray render`: read a scene, have it traced, write the picture, tell the cost.
+//! `octray render`: reads a scene, has it traced, writes the picture, prints statistics.
 
-use crate::check;
-use crate::error::Error;
-use crate::facts::Facts;
-use crate::interrupt::Interrupt;
 use crate::job::{RenderJob, StatsFormat};
-use crate::output;
-use crate::picture::Picture;
-use crate::progress::Progress;
-use crate::stats::{Dropped, Rays, Seconds, Stats, Work};
+use crate::stats::{Dropped, Seconds, Stats};
 use crate::summary::Summary;
-use octray_core::observe::{Counters, RayKind};
-use octray_engine::Octree;
+use octray_core::observe::RayKind;
+use octray_render::counts::SceneCounts;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::progress::{Bar, Progress};
+use octray_render::render::{self, Rendering};
+use octray_render::stats::Rays;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
-/// What tracing gives: the picture, and what it cost.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Traced {
-    /// The picture, with intensities if [`crate::picture::Target::holds_intensities`].
-    pub picture: Picture,
-    /// The number format that was used, e.g. `i16f16`.
-    pub format: String,
-    /// The scene was scaled by 2 to this power.
-    pub scale: i32,
-    /// What the format is too coarse for, if anything.
-    pub too_fine: Option<String>,
-    /// Rays, steps, tests and hits.
-    pub counters: Counters,
-    /// Fixed-point results that had to be clamped.
-    pub saturations: u64,
-    /// The octree.
-    pub octree: Octree,
-    /// Time to convert the scene and to build the octree.
-    pub build: Duration,
-    /// Time to trace.
-    pub render: Duration,
-    /// How it was done.
-    pub work: Work,
-}
-
-/// Do `job`, the tracing itself being done by `trace`.
+/// Traces a job on threads.
 ///
 /// # Errors
-/// When the scene is refused, tracing fails or is interrupted, or something cannot be written. Whether the
-/// picture can be written at all is found out first.
+/// As [`render::render_with`].
+pub fn trace(
+    scene: &Scene,
+    job: &RenderJob,
+    progress: &dyn Progress,
+    interrupt: &Interrupt,
+) -> Result<Rendering, Error> {
+    let intensities = job.output.holds_intensities();
+    render::render_with(
+        scene,
+        &job.settings,
+        &job.work,
+        intensities,
+        progress,
+        interrupt,
+    )
+}
+
+/// Runs `job`; `trace` does the tracing.
+///
+/// # Errors
+/// If the scene is refused, tracing fails or is interrupted, or something cannot be written. Whether the picture can be
+/// written is tested before tracing.
 pub fn run(
     job: &RenderJob,
     interrupt: &Interrupt,
-    trace: impl FnOnce(&Scene, &RenderJob, &Progress, &Interrupt) -> Result<Traced, Error>,
+    trace: impl FnOnce(&Scene, &RenderJob, &dyn Progress, &Interrupt) -> Result<Rendering, Error>,
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = check::read(&job.scene)?;
+    let scene = octray_scenes::read(&job.scene)?;
     let parse = begin.elapsed();
     interrupt.check()?;
-    let progress = Progress::new("tracing");
+    let progress = Bar::new("tracing");
     let traced = trace(&scene, job, &progress, interrupt)?;
     drop(progress);
     interrupt.check()?;
@@ -72,13 +67,13 @@ pub fn run(
     })
 }
 
-fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> Stats {
+fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) -> Stats {
     Stats {
         scene: job.scene.display().to_string(),
-        facts: Facts::of(scene),
+        facts: SceneCounts::of(scene),
         picture: job.output.path.display().to_string(),
-        arith: job.arith,
-        format: traced.format.clone(),
+        arith: job.settings.arith,
+        format: traced.format,
         scale: traced.scale,
         too_fine: traced.too_fine.clone(),
         size: traced.picture.size(),
@@ -88,7 +83,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
         hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,
         dropped: Dropped::of(&traced.counters),
-        octree: traced.octree,
+        tree: traced.tree,
         seconds: Seconds {
             parse: parse.as_secs_f64(),
             build: traced.build.as_secs_f64(),
@@ -102,10 +97,14 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Traced, parse: Duration) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deal::Policy;
-    use crate::job::WorkOptions;
-    use crate::picture::{self, RasDepth, Target};
-    use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+    use octray_core::observe::Counters;
+    use octray_prepare::{Format, RenderSettings, TreeKind, TreeSettings};
+    use octray_render::picture::Picture;
+    use octray_render::picture::{self, RasDepth, Target};
+    use octray_render::renderer::TreeStats;
+    use octray_render::schedule::Schedule;
+    use octray_render::scheduler::Policy;
+    use octray_render::stats::Work;
     use std::fs;
     use std::path::Path;
 
@@ -116,16 +115,13 @@ mod tests {
             scene: path,
             output: Target::new(folder.join(output)).unwrap(),
             ras_depth: RasDepth::Eight,
-            arith: Arith::F32,
-            tree: TreeOptions::of(Tree::None),
-            view: ViewOptions {
-                size: None,
-                pixels_per_ray: PixelsPerRay::One,
-                samples: 1,
-                max_depth: 8,
+            settings: RenderSettings {
+                tree: TreeSettings::of(TreeKind::None),
                 cut_off: 0.0,
+                ..RenderSettings::DEFAULT
             },
-            work: WorkOptions::default(),
+            work: Schedule::default(),
+            mpi: false,
             stats: StatsFormat::None,
         }
     }
@@ -133,18 +129,18 @@ mod tests {
     const SCENE: &str = "v 0 0 -9 resolution 2 3 f 1 1 1 0 0 0 0 0 0 0 0 0 s 0 0 5 1";
 
     /// A tracer that sees red everywhere.
-    fn red(scene: &Scene) -> Result<Traced, Error> {
+    fn red(scene: &Scene) -> Result<Rendering, Error> {
         let pixels = (scene.width * scene.height) as usize;
         let levels = vec![[255, 0, 0]; pixels];
-        Ok(Traced {
+        Ok(Rendering {
             picture: Picture::from_levels(scene.width, scene.height, levels).unwrap(),
-            format: "f32".into(),
+            format: Format::F32,
             scale: 0,
             too_fine: None,
             counters: Counters::default(),
             saturations: 0,
-            octree: Octree {
-                kind: Tree::None,
+            tree: TreeStats {
+                kind: TreeKind::None,
                 nodes: 0,
                 links: 0,
                 depth: 0,
@@ -155,9 +151,8 @@ mod tests {
             work: Work {
                 threads: 1,
                 schedule: Policy::Dynamic,
-                packet: crate::packing::FIXED.1,
-                packets: 1,
-                forecast: None,
+                tile: Schedule::TILE,
+                tiles: 1,
                 messages: None,
                 idle: vec![0.0],
             },
@@ -165,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_tracer_sees_is_in_the_file() {
+    fn the_file_holds_the_traced_picture() {
         let folder = tempfile::tempdir().unwrap();
         let job = job(folder.path(), SCENE, "a.png");
         run(&job, &Interrupt::new(), |scene, _, _, _| red(scene)).unwrap();

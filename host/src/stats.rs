@@ -1,93 +1,58 @@
-//! What a rendering cost: the object that `--stats json` prints.
+//! Statistics of a rendering: the object that `--stats json` prints.
 
-use crate::deal::Policy;
-use crate::facts::Facts;
-use crate::packets::Shape;
-use crate::packing::Forecast;
-use octray_core::observe::{Counters, RayKind};
-use octray_engine::Octree;
-use octray_engine::options::Arith;
+use octray_core::observe::Counters;
+use octray_prepare::format::{Arith, Format};
+use octray_render::counts::SceneCounts;
+use octray_render::renderer::TreeStats;
+use octray_render::stats::{Rays, Work};
 use serde::{Serialize, Serializer};
 
-/// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
-/// that are for the summary only are left out.
+/// The statistics of one rendering. The JSON object has the serialised fields, in this order; the summary prints the
+/// others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stats {
     /// The scene file as it was named.
     pub scene: String,
-    /// What is in it.
+    /// The scene's contents.
     #[serde(skip)]
-    pub facts: Facts,
+    pub facts: SceneCounts,
     /// The picture file as it was named.
     #[serde(skip)]
     pub picture: String,
     /// The arithmetic that was asked for.
     pub arith: Arith,
-    /// The number format that was used, e.g. `i16f16`.
-    pub format: String,
-    /// The scene was scaled by 2 to this power to fit the format.
+    /// The number format that was used.
+    pub format: Format,
+    /// The power of two by which the scene was scaled to fit the format.
     #[serde(skip)]
     pub scale: i32,
-    /// What the format is too coarse for, if anything.
+    /// What is too fine for the format, if anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub too_fine: Option<String>,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// Rays by kind.
     pub rays: Rays,
-    /// Voxels or nodes that rays went through.
+    /// Visited nodes, or cells of an octree.
     pub steps: u64,
-    /// Objects that rays were tested against.
+    /// Tests of a ray against an object.
     pub tests: u64,
-    /// Eye rays that met an object.
+    /// Primary rays that hit an object.
     pub hits: u64,
-    /// Fixed-point results that had to be clamped to the format's range.
+    /// Fixed-point results that were clamped to the format's range.
     pub saturations: u64,
     /// What found no room.
     pub dropped: Dropped,
-    /// The octree.
-    pub octree: Octree,
+    /// The tree.
+    pub tree: TreeStats,
     /// Time per stage.
     pub seconds: Seconds,
-    /// How it was done.
+    /// How the work was shared.
     #[serde(flatten)]
     pub work: Work,
-    /// [`crate::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
+    /// [`octray_render::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
     #[serde(serialize_with = "hexadecimal")]
     pub hash: u64,
-}
-
-/// Rays by kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Rays {
-    /// From the eye.
-    pub primary: u64,
-    /// Towards a light.
-    pub shadow: u64,
-    /// Those of them that met something on the way.
-    pub blocked: u64,
-    /// Mirrored.
-    pub reflected: u64,
-    /// Passed on through a transparent surface.
-    pub transmitted: u64,
-}
-
-impl Rays {
-    /// Those that were counted.
-    pub fn of(counters: &Counters) -> Self {
-        Self {
-            primary: counters.rays_of(RayKind::Primary),
-            shadow: counters.rays_of(RayKind::Shadow),
-            blocked: counters.blocked,
-            reflected: counters.rays_of(RayKind::Reflected),
-            transmitted: counters.rays_of(RayKind::Transmitted),
-        }
-    }
-
-    /// All rays; the blocked ones are among the shadow rays.
-    pub fn total(&self) -> u64 {
-        self.primary + self.shadow + self.reflected + self.transmitted
-    }
 }
 
 /// What found no room: all 0 unless something is wrong with octray, as it makes room for all that a scene can need.
@@ -112,48 +77,15 @@ impl Dropped {
     }
 }
 
-/// Wall-clock time per stage, in seconds.
+/// Wall-clock time of each stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
     /// Reading the scene.
     pub parse: f64,
-    /// Converting it and building the octree.
+    /// Converting it and building the tree.
     pub build: f64,
     /// Tracing.
     pub render: f64,
-}
-
-/// How threads did the work.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Work {
-    /// Threads that traced.
-    pub threads: usize,
-    /// How packets were dealt to them.
-    pub schedule: Policy,
-    /// How large packets were.
-    pub packet: Shape,
-    /// How many there were.
-    pub packets: usize,
-    /// Why they were so large and so dealt, if that was chosen.
-    pub forecast: Option<Forecast>,
-    /// What went between the ranks of an MPI job, if it was one; a rank counts as a thread.
-    pub messages: Option<Messages>,
-    /// For how many seconds each thread had nothing to work on, from the start of all to the end of the last.
-    pub idle: Vec<f64>,
-}
-
-/// Packets that came back to the first rank of an MPI job.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Messages {
-    /// How many.
-    pub count: u64,
-    /// Their bytes.
-    pub bytes: u64,
-    /// For how many seconds the first rank took packets back and handed out others.
-    pub seconds: f64,
-    /// Instructions ([`crate::cost`]) that a rank traces while the first one does that with one packet: for
-    /// `octray schedule --messages --hand-out`.
-    pub hand_out: f64,
 }
 
 fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -163,23 +95,24 @@ fn hexadecimal<S: Serializer>(hash: &u64, serializer: S) -> Result<S::Ok, S::Err
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::packing::FIXED;
-    use octray_engine::options::Tree;
+    use octray_prepare::TreeKind;
+    use octray_render::schedule::Schedule;
+    use octray_render::scheduler::Policy;
 
-    /// Statistics in which every number is another.
+    /// Statistics in which all numbers are different.
     pub(crate) fn example() -> Stats {
         Stats {
             scene: "scenes/figure-19.scene".into(),
-            facts: Facts {
+            facts: SceneCounts {
                 spheres: 62,
                 polygons: 1,
                 surfaces: 3,
                 lights: 2,
-                ..Facts::default()
+                ..SceneCounts::default()
             },
             picture: "figure-19.png".into(),
             arith: Arith::Auto,
-            format: "i12f20".into(),
+            format: Format::I12F20,
             scale: -3,
             too_fine: None,
             size: (512, 256),
@@ -199,8 +132,8 @@ pub(crate) mod tests {
                 nodes: 3,
                 uncached: 4,
             },
-            octree: Octree {
-                kind: Tree::Tight,
+            tree: TreeStats {
+                kind: TreeKind::Bvh8,
                 nodes: 11,
                 links: 63,
                 depth: 4,
@@ -214,15 +147,8 @@ pub(crate) mod tests {
             work: Work {
                 threads: 2,
                 schedule: Policy::Dynamic,
-                packet: FIXED.1,
-                packets: 64,
-                forecast: Some(Forecast {
-                    probed: 324,
-                    simulated: 6,
-                    seconds: 0.000_25,
-                    speed_up: 1.9876,
-                    fixed: 1.9567,
-                }),
+                tile: Schedule::TILE,
+                tiles: 64,
                 messages: None,
                 idle: vec![0.0005, 0.0],
             },
@@ -237,10 +163,9 @@ pub(crate) mod tests {
             r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
             r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
             r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"dropped":{"rays":2,"nodes":3,"uncached":4},"#,
-            r#""octree":{"kind":"tight","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
+            r#""tree":{"kind":"bvh8","nodes":11,"links":63,"depth":4,"unsplit":0},"#,
             r#""seconds":{"parse":0.00075,"build":0.0025,"render":0.25},"#,
-            r#""threads":2,"schedule":"dynamic","packet":{"rows":16,"columns":16},"packets":64,"#,
-            r#""forecast":{"probed":324,"simulated":6,"seconds":0.00025,"speed_up":1.9876,"fixed":1.9567},"#,
+            r#""threads":2,"schedule":"dynamic","tile":{"rows":16,"columns":16},"tiles":64,"#,
             r#""messages":null,"#,
             r#""idle":[0.0005,0.0],"hash":"00123456789abcde"}"#,
         );

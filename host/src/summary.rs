@@ -1,11 +1,11 @@
-//! The statistics of a rendering as a summary to read.
+//! The statistics of a rendering as a readable summary.
 
-use crate::facts::thousands;
-use crate::packing::{self, Forecast};
-use crate::stats::{Messages, Stats};
+use crate::stats::Stats;
+use octray_render::counts::thousands;
+use octray_render::stats::Messages;
 use std::fmt;
 
-/// Shows [`Stats`] as aligned lines, each ended.
+/// Displays [`Stats`] as aligned lines, each with a line end.
 pub struct Summary<'a>(pub &'a Stats);
 
 impl fmt::Display for Summary<'_> {
@@ -23,7 +23,7 @@ impl fmt::Display for Summary<'_> {
         if let Some(too_fine) = &stats.too_fine {
             line(f, "too coarse", too_fine)?;
         }
-        line(f, "octree", &tree(stats))?;
+        line(f, "tree", &tree(stats))?;
         count(f, "rays", rays.total(), "")?;
         count(f, "  primary", rays.primary, "")?;
         let blocked = format!("  {} of them blocked", thousands(rays.blocked));
@@ -32,7 +32,7 @@ impl fmt::Display for Summary<'_> {
         count(f, "  transmitted", rays.transmitted, "")?;
         count(
             f,
-            "voxel steps",
+            "node visits",
             stats.steps,
             &per_ray(stats.steps, rays.total()),
         )?;
@@ -75,9 +75,6 @@ impl fmt::Display for Summary<'_> {
         let stages = stages.map(|(stage, seconds)| format!("{stage} {}", duration(seconds)));
         line(f, "time", &stages.join(", "))?;
         line(f, "work", &work(stats))?;
-        if let Some(forecast) = &stats.work.forecast {
-            line(f, "packing", &packing(forecast))?;
-        }
         if let Some(sent) = &stats.work.messages {
             line(f, "messages", &messages(sent))?;
         }
@@ -95,21 +92,17 @@ fn count(f: &mut fmt::Formatter<'_>, name: &str, number: u64, more: &str) -> fmt
 }
 
 fn arithmetic(stats: &Stats) -> String {
-    let name = stats.arith.name();
-    let format = match stats.format == name {
-        true => String::new(),
-        false => format!(": {}", stats.format),
-    };
+    let name = stats.arith.with_format(Some(stats.format));
     let scale = match stats.scale {
         0 => String::new(),
         power => format!(", scene scaled by 2^{power}"),
     };
-    format!("{name}{format}{scale}")
+    format!("{name}{scale}")
 }
 
 fn tree(stats: &Stats) -> String {
-    let octree = &stats.octree;
-    let unsplit = match octree.unsplit {
+    let tree = &stats.tree;
+    let unsplit = match tree.unsplit {
         0 => String::new(),
         leaves => format!(
             ", arena full: {} leaves larger than asked for",
@@ -118,10 +111,10 @@ fn tree(stats: &Stats) -> String {
     };
     format!(
         "{}: {} nodes, {} links, depth {}{unsplit}",
-        octree.kind.name(),
-        thousands(octree.nodes),
-        thousands(octree.links),
-        octree.depth
+        tree.kind.name(),
+        thousands(tree.nodes),
+        thousands(tree.links),
+        tree.depth
     )
 }
 
@@ -144,34 +137,17 @@ fn work(stats: &Stats) -> String {
     let plural = |count| if count == 1 { "" } else { "s" };
     let one = work.messages.map_or("thread", |_| "rank");
     format!(
-        "{speed}{} {one}{}, {} packet{} of {}, {} schedule",
+        "{speed}{} {one}{}, {} tile{} of {}, {} schedule",
         work.threads,
         plural(work.threads),
-        thousands(work.packets as u64),
-        plural(work.packets),
-        work.packet,
+        thousands(work.tiles as u64),
+        plural(work.tiles),
+        work.tile,
         work.schedule.name()
     )
 }
 
-/// Why packets are as they are.
-fn packing(forecast: &Forecast) -> String {
-    let Forecast {
-        probed,
-        simulated,
-        seconds,
-        speed_up,
-        fixed,
-    } = forecast;
-    format!(
-        "speed-up {speed_up:.3} expected, best of {simulated} simulated after {} probes in {}; {fixed:.3} in {} without a probe",
-        thousands(*probed),
-        duration(*seconds),
-        packing::FIXED.1
-    )
-}
-
-/// What came back from other ranks.
+/// Describes the tiles that other ranks returned.
 fn messages(sent: &Messages) -> String {
     let Messages {
         count,
@@ -180,7 +156,7 @@ fn messages(sent: &Messages) -> String {
         hand_out,
     } = *sent;
     format!(
-        "{} packets in {} bytes came back from other ranks, {} or {} instructions each for the first one",
+        "other ranks returned {} tiles in {} bytes; each took the first rank {} or {} instructions",
         thousands(count),
         thousands(bytes),
         duration(seconds / count.max(1) as f64),
@@ -188,7 +164,7 @@ fn messages(sent: &Messages) -> String {
     )
 }
 
-/// For how long the threads had nothing to do.
+/// Describes how long the threads were idle.
 fn idle(idle: &[f64]) -> String {
     let longest = idle.iter().copied().fold(0.0, f64::max);
     let shortest = idle.iter().copied().fold(longest, f64::min);
@@ -202,7 +178,7 @@ fn idle(idle: &[f64]) -> String {
     }
 }
 
-/// Seconds to three digits, in a unit that suits.
+/// Formats seconds with three digits and a suitable unit.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.000_999_5 => format!("{:.0} us", s * 1e6),
@@ -220,26 +196,25 @@ mod tests {
     use snapbox::{assert_data_eq, str};
 
     #[test]
-    fn the_summary_reads_well() {
+    fn the_summary_has_the_documented_form() {
         assert_data_eq!(
             Summary(&example()).to_string(),
             str![[r#"
 scene         scenes/figure-19.scene: 62 spheres, 1 polygon, 3 surfaces, 2 lights
 picture       figure-19.png: 512 x 256 pixels, hash 00123456789abcde
 arithmetic    auto: i12f20, scene scaled by 2^-3
-octree        tight: 11 nodes, 63 links, depth 4
+tree          bvh8: 11 nodes, 63 links, depth 4
 rays                  381,073
   primary             131,072
   shadow              200,000  34,567 of them blocked
   reflected            50,001
   transmitted               0
-voxel steps         1,234,567  3.24 per ray
+node visits         1,234,567  3.24 per ray
 object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
 time          parse 750 us, build 2.5 ms, render 250 ms
-work          1,524,292 rays/s, 2 threads, 64 packets of 16 x 16 pixels, dynamic schedule
-packing       speed-up 1.988 expected, best of 6 simulated after 324 probes in 250 us; 1.957 in 16 x 16 pixels without a probe
+work          1,524,292 rays/s, 2 threads, 64 tiles of 16 x 16 pixels, dynamic schedule
 idle          500 us, 0 us
 
 "#]]
@@ -247,11 +222,11 @@ idle          500 us, 0 us
     }
 
     #[test]
-    fn a_full_arena_is_told_and_plain_arithmetic_named_once() {
+    fn a_full_arena_is_reported_and_plain_arithmetic_named_once() {
         let mut stats = example();
         (stats.arith, stats.format, stats.scale) =
-            (octray_engine::options::Arith::F32, "f32".into(), 0);
-        (stats.octree.unsplit, stats.seconds.render) = (7, 0.0);
+            (octray_prepare::Arith::F32, octray_prepare::Format::F32, 0);
+        (stats.tree.unsplit, stats.seconds.render) = (7, 0.0);
         stats.too_fine = Some("f32 resolves little".into());
         let text = Summary(&stats).to_string();
         assert!(text.contains("arithmetic    f32\n"), "{text}");
@@ -264,7 +239,7 @@ idle          500 us, 0 us
     }
 
     #[test]
-    fn messages_between_ranks_are_told() {
+    fn messages_between_ranks_are_reported() {
         let mut stats = example();
         stats.work.messages = Some(Messages {
             count: 1000,
@@ -273,21 +248,21 @@ idle          500 us, 0 us
             hand_out: 34_567.8,
         });
         let text = Summary(&stats).to_string();
-        assert!(text.contains("2 ranks, 64 packets"), "{text}");
-        let told = "messages      1,000 packets in 772,000 bytes came back from other ranks, \
+        assert!(text.contains("2 ranks, 64 tiles"), "{text}");
+        let expected = "messages      1,000 tiles in 772,000 bytes came back from other ranks, \
             4 us or 34,568 instructions each";
-        assert!(text.contains(told), "{text}");
+        assert!(text.contains(expected), "{text}");
     }
 
     #[test]
-    fn the_idle_time_of_many_threads_is_told_in_short() {
+    fn the_idle_time_of_many_threads_is_a_range() {
         let times: Vec<_> = (1..=9).map(|i| f64::from(i) * 1e-3).collect();
         assert_eq!(idle(&times), "1.0 ms to 9.0 ms per thread");
         assert_eq!(idle(&times[..2]), "1.0 ms, 2.0 ms");
     }
 
     #[test]
-    fn durations_have_a_unit_that_suits() {
+    fn durations_have_a_suitable_unit() {
         let cases = [
             (0.000_001, "1 us"),
             (0.000_999_6, "1.0 ms"),

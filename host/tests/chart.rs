@@ -1,4 +1,5 @@
 //! `octray chart` end to end.
+#![cfg(feature = "lab")]
 
 use serde_json::Value;
 use snapbox::cmd::cargo_bin;
@@ -35,15 +36,15 @@ fn chart(folder: &Path, line: &str) -> Command {
     command
 }
 
-/// What it printed, or `None` if this machine lacks what counts.
+/// Returns the output, or `None` if a tool is missing on this machine.
 fn run(folder: &Path, line: &str) -> Option<Output> {
     let output = chart(folder, line).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    if told.contains(" is missing") {
-        eprintln!("skipped: {told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    if stderr.contains(" is missing") {
+        eprintln!("skipped: {stderr}");
         return None;
     }
-    assert!(output.status.success(), "{told}");
+    assert!(output.status.success(), "{stderr}");
     Some(output)
 }
 
@@ -67,10 +68,10 @@ fn a_run_that_needs_no_tool_gives_the_same_points_everywhere() {
         read(folder.path(), "a.csv"),
         str![[r#"
 scene,width,height,label,arith,format,tree,max_depth,cut_off,pixels_per_ray,samples,cost_kind,unit,cost,cost_per_pixel,psnr,rmse,psnr_converged,rmse_converged,other_object_share,worst_depth_error,on_frontier,chosen_as,outcome,command
-a,16,12,f64 d0,f64,f64,tight,0,0.001953125,1,1,events,instructions,202[..].0,105[..],,0.0,22.6[..],18.7[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=tight --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
-a,16,12,f32 d0,f32,f32,tight,0,0.001953125,1,1,events,instructions,21[..].0,1[..],[..],[..],22.6[..],18.7[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=tight --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
-a,16,12,f64 d3,f64,f64,tight,3,0.001953125,1,1,events,instructions,251[..].0,131[..],,0.0,31.6[..],6.6[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=tight --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
-a,16,12,f32 d3,f32,f32,tight,3,0.001953125,1,1,events,instructions,2[..].0,1[..],[..],[..],31.6[..],6.6[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=tight --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+a,16,12,f64 d0,f64,f64,bvh8,0,0.001953125,1,1,events,instructions,202[..].0,105[..],,0.0,22.6[..],18.7[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+a,16,12,f32 d0,f32,f32,bvh8,0,0.001953125,1,1,events,instructions,21[..].0,1[..],[..],[..],22.6[..],18.7[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+a,16,12,f64 d3,f64,f64,bvh8,3,0.001953125,1,1,events,instructions,251[..].0,131[..],,0.0,31.6[..],6.6[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=bvh8 --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+a,16,12,f32 d3,f32,f32,bvh8,3,0.001953125,1,1,events,instructions,2[..].0,1[..],[..],[..],31.6[..],6.6[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=bvh8 --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
 
 "#]]
     );
@@ -78,7 +79,7 @@ a,16,12,f32 d3,f32,f32,tight,3,0.001953125,1,1,events,instructions,2[..].0,1[..]
         String::from_utf8(text).unwrap(),
         str![[r#"
 a: instructions per frame, estimated from counted events
-16 x 12 pixels, tight tree, cut-off 1/512, 1 ray per pixel
+16 x 12 pixels, bvh8 tree, cut-off 1/512, 1 ray per pixel
 
 | frontier | setting | instructions | PSNR, dB | RMSE, levels | PSNR, converged | RMSE, converged | other object first, % | worst depth error |
 |----------|---------|--------------|----------|--------------|-----------------|-----------------|-----------------------|-------------------|
@@ -86,7 +87,7 @@ a: instructions per frame, estimated from counted events
 | *        | f64 d3  |      251,[..] |    equal |       0.0000 |           31.6[..] |          6.[..] |                 0.000 |             0.0e0 |
 ...
 fastest with at least 20 dB: [..]
-    octray render a.scene --arith=[..] --size=16x12 --tree=tight --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+    octray render a.scene --arith=[..] --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
 ...
 "#]]
     );
@@ -113,10 +114,11 @@ fn the_command_of_a_point_renders_its_picture() {
                 .args(["--stats=none", "--output=a.ppm"])
                 .status();
             assert!(status.unwrap().success(), "{command}");
-            octray::picture::read(&folder.path().join("a.ppm")).unwrap()
+            octray_render::picture::read(&folder.path().join("a.ppm")).unwrap()
         })
         .collect();
-    let difference = octray::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
+    let difference =
+        octray_render::metric::Difference::between(&pictures[0], &pictures[1]).unwrap();
     let point = &points(folder.path(), "a.json")[1];
     assert_eq!(point["psnr"].as_f64(), Some(difference.psnr()));
 }
@@ -177,7 +179,7 @@ fn a_board_counts_for_a_chart_what_it_counts_for_measure() {
 }
 
 #[test]
-fn a_missing_tool_is_told_with_the_command_that_installs_it() {
+fn a_missing_tool_is_reported_with_the_command_that_installs_it() {
     let folder = folder();
     for (cost, expected) in [
         (
@@ -194,15 +196,15 @@ fn a_missing_tool_is_told_with_the_command_that_installs_it() {
             .env("PATH", "")
             .output()
             .unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{told}");
-        assert!(told.contains(expected), "{told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert!(stderr.contains(expected), "{stderr}");
     }
     assert!(!folder.path().join("a.csv").exists());
 }
 
 #[test]
-fn what_does_not_fit_is_told_and_a_chart_of_nothing_is_no_chart() {
+fn what_does_not_fit_is_reported_and_an_empty_chart_is_refused() {
     let folder = TempDir::new().unwrap();
     let large = SCENE.replace("p 4  -5 0 -5  5 0 -5", "p 4  -5000 0 -5  5 0 -5");
     fs::write(
@@ -216,9 +218,9 @@ fn what_does_not_fit_is_told_and_a_chart_of_nothing_is_no_chart() {
     assert!(text.contains("no point: i4f28: "), "{text}");
     let nothing = format!("{line} --arith i4f28 -o a.svg");
     let output = chart(folder.path(), &nothing).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
-    assert!(told.contains("there is no point to draw: "), "{told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert!(stderr.contains("there is no point to draw: "), "{stderr}");
     assert!(!folder.path().join("a.svg").exists());
 }
 
@@ -240,12 +242,12 @@ fn bad_usage_is_refused() {
         ),
         (
             "a.scene --cost m3 --tree tight",
-            "m3 has no tight tree: expected packed or none",
+            "m3 has no bvh8 tree: expected compact-bvh8 or none",
         ),
     ] {
         let output = chart(folder.path(), line).output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{line}: {told}");
-        assert!(told.contains(expected), "{line}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
     }
 }

@@ -41,7 +41,7 @@ mod diff {
     use super::*;
 
     #[test]
-    fn tells_how_far_apart_two_pictures_are() {
+    fn prints_how_far_apart_two_pictures_are() {
         octray(pictures().path(), "diff a.ppm b.ppm")
             .assert()
             .success()
@@ -57,7 +57,7 @@ beyond 8 levels     1 of 3 pixels (33.333 %)
     }
 
     #[test]
-    fn equal_pictures_have_an_infinite_ratio_which_is_null_in_json() {
+    fn equal_pictures_have_an_infinite_psnr_which_is_null_in_json() {
         let folder = pictures();
         octray(folder.path(), "diff a.ppm a.ppm --max-rmse 0 --min-psnr 99")
             .assert()
@@ -80,7 +80,7 @@ beyond 8 levels     0 of 3 pixels (0.000 %)
     }
 
     #[test]
-    fn an_exceeded_bound_is_told_after_the_numbers() {
+    fn an_exceeded_limit_is_reported_after_the_numbers() {
         octray(
             pictures().path(),
             "diff a.ppm b.ppm --json --max-difference 9 --max-beyond-1 60% --max-beyond-8 1",
@@ -129,7 +129,7 @@ error: the pictures differ in size: 3x1 and 4x1
     }
 
     #[test]
-    fn what_cannot_be_read_is_named_with_the_cause() {
+    fn an_unreadable_file_is_named_with_the_cause() {
         let folder = pictures();
         let cut = &ppm(&[[1; 3]; 9])[..20];
         fs::write(folder.path().join("cut.ppm"), cut).unwrap();
@@ -153,7 +153,7 @@ error: the pictures differ in size: 3x1 and 4x1
     }
 
     #[test]
-    fn an_unknown_extension_is_bad_usage_naming_the_known_ones() {
+    fn an_unknown_extension_is_bad_usage_with_a_list_of_the_known_ones() {
         octray(pictures().path(), "diff a.ppm b.ppm -o heat.bmp")
             .assert()
             .code(2)
@@ -167,7 +167,7 @@ For more information, try '--help'.
     }
 
     #[test]
-    fn a_folder_that_is_not_there_is_told() {
+    fn a_missing_folder_is_reported() {
         octray(pictures().path(), "diff a.ppm b.ppm -o no/heat.png")
             .assert()
             .code(1)
@@ -184,7 +184,7 @@ mod check {
     const SCENE: &str = "v 0 0 -9\nl 1 1 1 1\nf 1 1 1 0 0 0 0 0 0 0 0 0\ns 0 0 5 1\n";
 
     #[test]
-    fn tells_what_is_in_each_scene() {
+    fn prints_the_contents_of_each_scene() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
         octray(folder.path(), "check a.scene a.scene")
@@ -199,7 +199,7 @@ a.scene: 1 sphere, 1 surface, 1 light, 512 x 512 pixels
     }
 
     #[test]
-    fn one_bad_scene_does_not_keep_the_others_from_being_told() {
+    fn a_bad_scene_does_not_hide_the_others() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("good.scene"), SCENE).unwrap();
         fs::write(
@@ -235,7 +235,7 @@ mod generate {
     use super::*;
 
     #[test]
-    fn every_kind_gives_a_scene_that_reads_back_with_the_wished_number_of_objects() {
+    fn every_kind_gives_a_readable_scene_with_the_requested_number_of_objects() {
         let folder = TempDir::new().unwrap();
         for (kind, facts) in [
             ("flake", "19 spheres, 1 polygon, [..]"),
@@ -261,7 +261,7 @@ mod generate {
     }
 
     #[test]
-    fn standard_output_gets_what_the_file_gets_and_the_seed_matters() {
+    fn standard_output_equals_the_file_and_the_seed_matters() {
         let folder = TempDir::new().unwrap();
         let made = |line: &str| {
             let output = octray(folder.path(), line).output().unwrap();
@@ -292,7 +292,7 @@ mod generate {
     }
 
     #[test]
-    fn a_folder_that_is_not_there_is_told() {
+    fn a_missing_folder_is_reported() {
         octray(Path::new("."), "generate soup -o no/a.scene")
             .assert()
             .code(1)
@@ -311,17 +311,17 @@ mod schedule {
         f 1 1 1 0 0 0 0 0 0 0 0.5 0\ns 0 16 5 12\n";
 
     #[test]
-    fn the_best_packets_are_told_for_each_number_of_processors() {
+    fn the_best_tiles_are_printed_for_each_number_of_processors() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
         octray(
             folder.path(),
-            "schedule a.scene --processors 1,2 --packet-rows 1..4 --tiles 4 --policy static,dynamic",
+            "schedule a.scene --processors 1,2 --tile-rows 1..4 --tiles 4 --policy static,dynamic",
         )
         .assert()
         .success()
         .stdout_eq(str![[r#"
-| processors | packets |              static |             dynamic |
+| processors | tiles |              static |             dynamic |
 |------------|---------|---------------------|---------------------|
 | 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
 | 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
@@ -335,7 +335,7 @@ mod schedule {
     fn every_combination_is_in_the_json_object() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
-        let line = "schedule a.scene --processors 1..4 --packet-rows 2,8 --tiles 8 --json";
+        let line = "schedule a.scene --processors 1..4 --tile-rows 2,8 --tiles 8 --json";
         let output = octray(folder.path(), line).output().unwrap();
         let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let runs = object["runs"].as_array().unwrap();
@@ -351,7 +351,7 @@ mod schedule {
     fn wrong_values_are_bad_usage() {
         for flags in [
             "--processors 0",
-            "--packet-rows 4..1",
+            "--tile-rows 4..1",
             "--policy luck",
             "--contention -1",
         ] {
@@ -365,7 +365,7 @@ mod schedule {
 mod results {
     use super::*;
 
-    /// The command is refused, telling `why`, and every file is as it was.
+    /// Checks that the command is refused with the message `why`, and that no file changes.
     fn refused(line: &str, why: &str) {
         let folder = pictures();
         fs::write(folder.path().join("a.scene"), "v 0 0 -9").unwrap();
@@ -388,7 +388,7 @@ mod results {
     }
 
     #[test]
-    fn what_is_read_is_not_replaced() {
+    fn inputs_are_not_replaced() {
         for (line, result, input) in [
             ("render a.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
             ("bake a.scene -o ./a.scene", "./a.scene", "a.scene"),
@@ -419,7 +419,7 @@ mod results {
     }
 
     #[test]
-    fn one_result_is_not_written_over_another() {
+    fn no_result_replaces_another() {
         for line in [
             "schedule a.scene -o c.svg --csv ./c.svg",
             "measure a.scene --csv c.svg --chart ./c.svg",
@@ -436,7 +436,7 @@ mod usage {
     use super::*;
 
     #[test]
-    fn help_goes_to_standard_output_and_complaints_do_not() {
+    fn help_goes_to_standard_output_and_errors_do_not() {
         octray(Path::new("."), "--help")
             .assert()
             .success()
@@ -453,7 +453,7 @@ mod usage {
     }
 
     #[test]
-    fn the_version_is_told() {
+    fn the_version_is_printed() {
         let expected = format!("octray {}\n", env!("CARGO_PKG_VERSION"));
         octray(Path::new("."), "--version")
             .assert()
@@ -476,7 +476,7 @@ mod streams {
     }
 
     #[test]
-    fn a_reader_that_went_away_is_no_failure() {
+    fn a_closed_pipe_is_no_failure() {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let output = diff(pictures().path())
@@ -490,7 +490,7 @@ mod streams {
     }
 
     #[test]
-    fn a_long_answer_may_be_cut_by_its_reader() {
+    fn a_reader_may_stop_before_the_end() {
         let mut child = Command::new(cargo_bin!("octray"))
             .args(["generate", "soup", "--count", "20000"])
             .stdout(Stdio::piped())

@@ -24,3 +24,8 @@ pub use convert::{from_i32, from_u32, to_i32, to_u32};
 pub use divide::div;
 pub use multiply::mul;
 pub use root::sqrt;
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,10 +1,9 @@
 //! Pictures made by octray, without its command line.
 
-use octray::interrupt::Interrupt;
-use octray::job::{RenderJob, WorkOptions};
-use octray::progress::Progress;
-use octray::render::Traced;
-use octray_engine::options::{Arith, PixelsPerRay, Tree, TreeOptions, ViewOptions};
+use octray_prepare::{Arith, RenderSettings, TreeKind};
+use octray_render::interrupt::Interrupt;
+use octray_render::render::{Rendering, render_with};
+use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 use std::fs;
 use std::num::NonZeroUsize;
@@ -45,26 +44,17 @@ pub fn read(path: &Path) -> Scene {
 /// How a picture is made; the rest is as the command has it.
 #[derive(Clone, Copy, Debug)]
 pub struct Shot {
-    /// The arithmetic.
-    pub arith: Arith,
-    /// The tree.
-    pub tree: TreeOptions,
-    /// What is traced.
-    pub view: ViewOptions,
+    /// What is rendered.
+    pub settings: RenderSettings,
 }
 
 impl Shot {
     /// The command's defaults in this arithmetic.
     pub fn new(arith: Arith) -> Self {
         Self {
-            arith,
-            tree: TreeOptions::of(Tree::Tight),
-            view: ViewOptions {
-                size: None,
-                pixels_per_ray: PixelsPerRay::One,
-                samples: 1,
-                max_depth: 8,
-                cut_off: 1.0 / 512.0,
+            settings: RenderSettings {
+                arith,
+                ..RenderSettings::DEFAULT
             },
         }
     }
@@ -72,14 +62,14 @@ impl Shot {
     /// The same with another size.
     #[must_use]
     pub fn size(mut self, width: u32, height: u32) -> Self {
-        self.view.size = Some((width, height));
+        self.settings.size = Some((width, height));
         self
     }
 
     /// The same with another kind of tree.
     #[must_use]
-    pub fn tree(mut self, kind: Tree) -> Self {
-        self.tree.kind = kind;
+    pub fn tree(mut self, kind: TreeKind) -> Self {
+        self.settings.tree.kind = kind;
         self
     }
 
@@ -87,14 +77,12 @@ impl Shot {
     ///
     /// # Panics
     /// If the scene does not fit the arithmetic.
-    pub fn take(&self, scene: &Scene) -> Traced {
-        let work = WorkOptions {
+    pub fn take(&self, scene: &Scene) -> Rendering {
+        let work = Schedule {
             threads: NonZeroUsize::MIN,
-            ..WorkOptions::default()
+            ..Schedule::default()
         };
-        let job = RenderJob::in_memory(self.arith, self.tree, self.view, work);
-        let progress = Progress::hidden();
-        octray::trace::trace(scene, &job, &progress, &Interrupt::new())
+        render_with(scene, &self.settings, &work, false, &(), &Interrupt::new())
             .unwrap_or_else(|e| panic!("{e}"))
     }
 }

@@ -2,15 +2,17 @@
 //!
 //! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
 
-use octray::metric::Difference;
 use octray_core::accel::{Accelerator, TraversalStack};
 use octray_core::quantize::Quantize;
-use octray_core::scalar::{Approx, Fixed};
-use octray_engine::options::Arith;
+use octray_prepare::Arith;
+use octray_prepare::Prepare;
+use octray_prepare::RenderSettings;
+use octray_prepare::dispatch::InFormat;
+use octray_prepare::format::Format;
+use octray_prepare::quantise::quantise;
+use octray_prepare::tree::{Growth, OwnedBvh8};
+use octray_render::metric::Difference;
 use octray_scenes::model::Scene;
-use octray_scenes::quantise::{View, quantise};
-use octray_scenes::saturation::PerThread;
-use octray_scenes::tree::{Growth, TightTree};
 use octray_tests::shot::{self, Shot};
 use std::fs;
 use std::path::PathBuf;
@@ -20,7 +22,7 @@ const SIDE: u32 = 256;
 /// The least peak signal-to-noise ratio in dB, by arithmetic.
 const LEAST_PSNR: [(Arith, f64); 3] = [
     (Arith::F32, 50.0),
-    (Arith::Approx2, 45.0),
+    (Arith::APPROX2, 45.0),
     (Arith::Auto, 40.0),
 ];
 
@@ -45,7 +47,7 @@ fn pictures_are_near_those_in_f64() {
                 .expect("they are of one size");
             let others = first
                 .iter()
-                .zip(first_objects_in(&traced.format, &scene))
+                .zip(first_objects_in(traced.format, &scene))
                 .filter(|(a, b)| **a != *b)
                 .count();
             table += &format!(
@@ -86,27 +88,23 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-fn first_objects_in(format: &str, scene: &Scene) -> Vec<Option<u32>> {
-    match format {
-        "f32" => first_objects::<f32>(scene),
-        "approx2" => first_objects::<Approx<2>>(scene),
-        "i24f8" => first_objects::<Fixed<8, PerThread>>(scene),
-        "i20f12" => first_objects::<Fixed<12, PerThread>>(scene),
-        "i16f16" => first_objects::<Fixed<16, PerThread>>(scene),
-        "i12f20" => first_objects::<Fixed<20, PerThread>>(scene),
-        "i8f24" => first_objects::<Fixed<24, PerThread>>(scene),
-        "i4f28" => first_objects::<Fixed<28, PerThread>>(scene),
-        other => panic!("no such format here: {other}"),
+/// What the ray through each pixel's centre meets first, in a format.
+fn first_objects_in(format: Format, scene: &Scene) -> Vec<Option<u32>> {
+    struct Task<'a>(&'a Scene);
+    impl InFormat for Task<'_> {
+        type Output = Vec<Option<u32>>;
+        fn run<S: Prepare>(self) -> Self::Output {
+            first_objects::<S>(self.0)
+        }
     }
+    format.dispatch(Task(scene))
 }
 
 /// What the ray through each pixel's centre meets first, row by row.
 fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
-    let view = View {
+    let view = RenderSettings {
         size: Some((SIDE, SIDE)),
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 8,
+        ..RenderSettings::DEFAULT
     };
     let mut prepared = quantise::<S>(scene, &view).expect("the scene fits the format");
     let growth = Growth {
@@ -116,7 +114,7 @@ fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
         },
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let (scene, tree) = (prepared.scene.scene(), tree.tree());
     let mut stack = TraversalStack::default();
     let active = prepared.frame.active();

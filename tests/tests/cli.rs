@@ -1,7 +1,7 @@
 //! `octray render` end to end: what it writes, what it prints, how it ends.
 
-use octray::metric::Difference;
-use octray::picture::{self, Picture};
+use octray_render::metric::Difference;
+use octray_render::picture::{self, Picture};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -96,7 +96,7 @@ fn without_flags_a_png_of_the_scenes_name_and_a_summary() {
     let summary = done(folder.path(), "render a.scene");
     assert_eq!(names(folder.path()), ["a.png", "a.scene"]);
     assert_eq!(picture(folder.path(), "a.png").size(), (80, 60));
-    for word in ["f32", "2 lights", "tight", "80 x 60", "rays"] {
+    for word in ["f32", "2 lights", "bvh8", "80 x 60", "rays"] {
         assert!(summary.contains(word), "no {word:?} in\n{summary}");
     }
     assert_eq!(done(folder.path(), "render a.scene --stats none"), "");
@@ -117,13 +117,12 @@ fn the_json_object_has_the_documented_fields() {
         "hits",
         "saturations",
         "dropped",
-        "octree",
+        "tree",
         "seconds",
         "threads",
         "schedule",
-        "packet",
-        "packets",
-        "forecast",
+        "tile",
+        "tiles",
         "messages",
         "idle",
         "hash",
@@ -144,16 +143,16 @@ fn the_json_object_has_the_documented_fields() {
         (&2.into(), &"static".into())
     );
     assert_eq!(
-        (&stats["saturations"], &stats["octree"]["unsplit"]),
+        (&stats["saturations"], &stats["tree"]["unsplit"]),
         (&0.into(), &0.into())
     );
+    assert_eq!(stats["tree"]["kind"], "bvh8");
     assert_eq!(
         stats["dropped"],
         serde_json::json!({"rays": 0, "nodes": 0, "uncached": 0})
     );
-    assert_eq!(stats["octree"]["kind"], "tight");
     for field in ["nodes", "links", "depth"] {
-        assert!(stats["octree"][field].as_u64().unwrap() > 0, "{field}");
+        assert!(stats["tree"][field].as_u64().unwrap() > 0, "{field}");
     }
     for field in ["parse", "build", "render"] {
         assert!(stats["seconds"][field].as_f64().unwrap() >= 0.0, "{field}");
@@ -169,33 +168,22 @@ fn the_json_object_has_the_documented_fields() {
 }
 
 #[test]
-fn the_chosen_packing_is_explained() {
+fn tiles_are_squares_and_smaller_for_many_threads() {
     let folder = folder();
-    // In a large picture a probe takes little.
-    let chosen = stats(folder.path(), "--threads 2 --size 640x480");
-    let forecast = |field: &str| chosen["forecast"][field].as_f64().unwrap();
-    assert!(forecast("speed_up") > 1.0 && forecast("speed_up") <= 2.0);
-    assert!(forecast("fixed") > 1.0 && forecast("fixed") <= 2.0);
-    assert!(forecast("probed") > 0.0 && forecast("simulated") > 0.0);
-    let explained = done(folder.path(), "render a.scene --threads 2 --size 640x480");
-    assert!(
-        explained.contains("\npacking       speed-up "),
-        "{explained}"
-    );
-    let explicit = stats(
-        folder.path(),
-        "--threads 2 --size 640x480 --schedule static --packet-rows 4",
-    );
-    assert_eq!(explicit["forecast"], Value::Null);
-    let small = stats(folder.path(), "--threads 2");
-    assert_eq!(small["forecast"], Value::Null);
-    assert_eq!(explicit["hash"], chosen["hash"]);
+    let tile = |line: &str| {
+        let tile = stats(folder.path(), line)["tile"].clone();
+        (tile["rows"].as_u64().unwrap(), tile["columns"].as_u64())
+    };
+    assert_eq!(tile("--threads 1"), (16, Some(16)));
+    assert_eq!(tile("--threads 2 --size 640x480"), (16, Some(16)));
+    assert_eq!(tile("--threads 64"), (4, Some(4)));
+    assert_eq!(tile("--threads 2 --tile-rows 4"), (4, None));
 }
 
 #[test]
-fn threads_schedules_and_packets_change_nothing() {
+fn threads_schedules_and_tiles_change_nothing() {
     let folder = folder();
-    let first = stats(folder.path(), "--threads 1 --packet-rows 1 -o first.ppm");
+    let first = stats(folder.path(), "--threads 1 --tile-rows 1 -o first.ppm");
     let bytes = fs::read(folder.path().join("first.ppm")).unwrap();
     for threads in 1..=3 {
         for schedule in [
@@ -206,9 +194,9 @@ fn threads_schedules_and_packets_change_nothing() {
             "cost-ordered",
             "work-stealing",
         ] {
-            for packet in ["1", "2", "7", "9 --packet-columns 11"] {
+            for tile in ["1", "2", "7", "9 --tile-columns 11"] {
                 let line = format!(
-                    "--threads {threads} --schedule {schedule} --packet-rows {packet} -o b.ppm"
+                    "--threads {threads} --schedule {schedule} --tile-rows {tile} -o b.ppm"
                 );
                 let stats = stats(folder.path(), &line);
                 assert_eq!(stats["rays"], first["rays"], "{line}");
@@ -431,7 +419,7 @@ fn an_interrupt_leaves_no_half_file() {
 fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let folder = folder();
     let line =
-        "schedule a.scene --processors 1,8 --packet-rows 1..8 --tiles 8 --policy static,dynamic";
+        "schedule a.scene --processors 1,8 --tile-rows 1..8 --tiles 8 --policy static,dynamic";
     let table = done(
         folder.path(),
         &format!("{line} -o chart.svg --csv runs.csv --hand-out 500 --per-pixel 2"),
@@ -440,15 +428,15 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let chart = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
     assert!(chart.contains("How well a at 80 x 60 is shared"));
     let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
-    // Two policies, five packets, two numbers of processors.
+    // Two policies, five tiles, two numbers of processors.
     assert_eq!(runs.lines().count(), 1 + 2 * 5 * 2);
-    // Something is to be seen in 56 of 60 rows: a packet of 64 has no more, and costs no more to hand out.
+    // Something is to be seen in 56 of 60 rows: a tile of 64 has no more, and costs no more to hand out.
     let per_pixel = |flags: &str| {
-        let line = "schedule a.scene --processors 1 --packet-rows 64 --policy dynamic --json";
+        let line = "schedule a.scene --processors 1 --tile-rows 64 --policy dynamic --json";
         let told = done(folder.path(), &format!("{line} {flags}"));
         let told: Value = serde_json::from_str(&told).unwrap();
         let run = told["runs"].as_array().unwrap().iter();
-        let mut strips = run.filter(|run| run["packet"]["columns"].is_null());
+        let mut strips = run.filter(|run| run["tile"]["columns"].is_null());
         strips.next().unwrap()["time"].as_f64().unwrap()
     };
     let pixels = per_pixel("--per-pixel 100") - per_pixel("");
@@ -465,7 +453,7 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
         "-o a.txt",
         "-o a.scene",
         "-o b.svg --csv b.svg",
-        "--pixels-per-ray 4 --packet-rows 1 --tiles 5",
+        "--pixels-per-ray 4 --tile-rows 1 --tiles 5",
     ] {
         failed(folder.path(), &format!("schedule a.scene {wrong}"), 2);
     }

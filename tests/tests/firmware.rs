@@ -9,9 +9,10 @@ use octray_core::accel::BuildOptions;
 use octray_core::quantize::Quantize;
 use octray_core::scalar::Fixed;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
-use octray_scenes::quantise::{View, quantise};
-use octray_scenes::saturation::{PerThread, saturations};
-use octray_scenes::tree::{Growth, TightTree};
+use octray_prepare::RenderSettings;
+use octray_prepare::quantise::quantise;
+use octray_prepare::saturation::{PerThread, saturations};
+use octray_prepare::tree::{Growth, OwnedBvh8};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -184,11 +185,9 @@ fn value<'a>(told: &'a [(String, String)], name: &str) -> &'a str {
 fn hash_here<S: Quantize>(job: Job) -> String {
     let scene = octray_scenes::read(root().join(job.scene)).unwrap();
     let (width, height) = job.size;
-    let view = View {
+    let view = RenderSettings {
         size: Some(job.size),
-        pixels_per_ray: 1,
-        samples: 1,
-        max_depth: 8,
+        ..RenderSettings::DEFAULT
     };
     let before = saturations();
     let mut prepared = quantise::<S>(&scene, &view).unwrap();
@@ -200,7 +199,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
         options,
         arena: None,
     };
-    let (tree, _) = TightTree::build(&mut prepared.scene, &growth);
+    let (tree, _) = OwnedBvh8::build(&mut prepared.scene, &growth);
     let scene = prepared.scene.scene();
     let tracer = Tracer {
         scene: &scene,

@@ -2,11 +2,11 @@
 //!
 //! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
 
-use octray::interrupt::Interrupt;
-use octray::metric::Difference;
-use octray::picture::{self, RasDepth, Target};
-use octray_engine::options::Arith;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_prepare::Arith;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::picture::{self, RasDepth, Target};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;
 use std::fs;
@@ -90,7 +90,9 @@ fn the_benchmark_knows_its_pictures() {
         let scene = match name.split_once(' ') {
             None => shot::read(&root.join("../scenes").join(name).with_extension("scene")),
             Some((kind, objects)) => {
-                let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
+                let kind = SceneKind::ALL
+                    .into_iter()
+                    .find(|known| known.name() == kind);
                 let (kind, objects) = (kind.unwrap(), objects.parse().unwrap());
                 if objects > MOST_OBJECTS {
                     continue;
@@ -99,7 +101,7 @@ fn the_benchmark_knows_its_pictures() {
             }
         };
         let mut shot = Shot::new(Arith::F32).size(512, 512);
-        (shot.view.max_depth, shot.view.cut_off) = (4, 0.0);
+        (shot.settings.max_depth, shot.settings.cut_off) = (4, 0.0);
         let hash = format!("{:016x}", shot.take(&scene).picture.hash());
         if hash != expected {
             wrong.push(format!("{name},{hash}"));

@@ -1,8 +1,8 @@
 //! In `f64` octray makes the oracle's picture: at least 99.9 % of the pixels within one level, and
 //! as many rays of each kind but for a few.
 
-use octray::stats::Rays;
-use octray_engine::options::{Arith, PixelsPerRay};
+use octray_prepare::{Arith, PixelsPerRay};
+use octray_render::stats::Rays;
 use octray_tests::oracle::{self, Counts};
 use octray_tests::shot::{self, Shot};
 use octray_tests::strew;
@@ -27,10 +27,10 @@ fn random_scenes_look_as_the_model_says() {
             shot = shot.size(77, 53);
         }
         match seed % 5 {
-            1 => shot.view.pixels_per_ray = PixelsPerRay::Four,
-            2 => shot.view.samples = 2,
-            3 => shot.view.max_depth = (seed / 5 % 4) as u32,
-            4 => shot.view.cut_off = 0.0,
+            1 => shot.settings.pixels_per_ray = PixelsPerRay::Four,
+            2 => shot.settings.samples = 2,
+            3 => shot.settings.max_depth = (seed / 5 % 4) as u32,
+            4 => shot.settings.cut_off = 0.0,
             _ => {}
         }
         failures.extend(compare(&format!("seed {seed}"), &source, &shot));
@@ -55,14 +55,14 @@ fn compare(name: &str, source: &str, shot: &Shot) -> Option<String> {
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.draw(name, source)));
     let ours = shot.take(&scene);
     let options = oracle::Options {
-        size: shot.view.size,
-        pixels_per_ray: match shot.view.pixels_per_ray {
+        size: shot.settings.size,
+        pixels_per_ray: match shot.settings.pixels_per_ray {
             PixelsPerRay::One => 1,
             PixelsPerRay::Four => 4,
         },
-        samples: shot.view.samples,
-        max_depth: shot.view.max_depth,
-        cut_off: shot.view.cut_off,
+        samples: shot.settings.samples,
+        max_depth: shot.settings.max_depth,
+        cut_off: shot.settings.cut_off,
     };
     let theirs = oracle::render(source, &options);
     assert_eq!(ours.picture.size(), (theirs.width, theirs.height), "{name}");

@@ -66,8 +66,8 @@ fn ranks_draw_the_picture_of_one_machine() {
     let path = folder.path();
     let packings = [
         "",
-        "--schedule static --packet-rows 4",
-        "--schedule work-stealing --packet-rows 5 --packet-columns 7",
+        "--schedule static --tile-rows 4",
+        "--schedule work-stealing --tile-rows 5 --tile-columns 7",
     ];
     for (ending, arith) in [("png", "f32"), ("pfm", "i16f16")] {
         alone(
@@ -89,8 +89,8 @@ fn ranks_draw_the_picture_of_one_machine() {
             assert_eq!(idle, Some(ranks as usize));
             let messages = &stats["messages"];
             let count = |field: &str| messages[field].as_u64().unwrap();
-            let packets = stats["packets"].as_u64().unwrap();
-            assert!(count("count") <= packets);
+            let tiles = stats["tiles"].as_u64().unwrap();
+            assert!(count("count") <= tiles);
             if ranks == 1 {
                 assert_eq!(count("bytes"), 0);
             }
@@ -98,20 +98,20 @@ fn ranks_draw_the_picture_of_one_machine() {
                 assert!(messages["hand_out"].as_f64().unwrap() > 0.0);
             }
             if packing.contains("static") {
-                // Of two ranks the second one has every other packet.
-                assert_eq!((ranks, count("count")), (2, packets / 2));
+                // Of two ranks the second one has every other tile.
+                assert_eq!((ranks, count("count")), (2, tiles / 2));
             }
-            // In the same packets, whose number tests depend on.
-            let rows = &stats["packet"]["rows"];
-            let columns = match stats["packet"]["columns"].as_u64() {
-                Some(columns) => format!("--packet-columns {columns}"),
+            // In the same tiles, whose number tests depend on.
+            let rows = &stats["tile"]["rows"];
+            let columns = match stats["tile"]["columns"].as_u64() {
+                Some(columns) => format!("--tile-columns {columns}"),
                 None => String::new(),
             };
             let line = format!(
-                "render a.scene --arith {arith} -o c.{ending} --packet-rows {rows} {columns}"
+                "render a.scene --arith {arith} -o c.{ending} --tile-rows {rows} {columns}"
             );
             let same = alone(path, &line);
-            for field in ["packets", "rays", "steps", "tests", "hits", "saturations"] {
+            for field in ["tiles", "rays", "steps", "tests", "hits", "saturations"] {
                 assert_eq!(
                     stats[field], same[field],
                     "{ranks} ranks {packing}: {field}"
@@ -132,7 +132,7 @@ fn other_ranks_need_no_files() {
     let folder = folder();
     let elsewhere = TempDir::new().unwrap();
     let mut command = mpirun(folder.path());
-    let line = "render a.scene --mpi --stats none --schedule static --packet-rows 4 -o b.png";
+    let line = "render a.scene --mpi --stats none --schedule static --tile-rows 4 -o b.png";
     command.args(["-n", "1", OCTRAY]).args(line.split(' '));
     command
         .args([":", "-n", "2", "-wdir"])

@@ -36,11 +36,12 @@ pub enum LinkBy {
 /// ```
 /// use octray_core::accel::{Accelerator, BuildOptions, LinkBy, Octree, OctreeNode, OctreeVariant};
 /// use octray_core::object::ObjectRef;
-/// use octray_scenes::quantise::{View, quantise};
+/// use octray_prepare::RenderSettings;
+/// use octray_prepare::quantise::quantise;
 ///
 /// let file = "v 0 0 9 at 0 0 0 up 0 1 0 angle 40 f 0 0 0 1 1 1 0 0 0 1 0 0
 ///     s 0 0 0 1 s 2 0 0 1 s -2 0 0 1 s 0 2 0 1 box 0 -2 0 1 1 1";
-/// let view = View { size: Some((8, 8)), pixels_per_ray: 1, samples: 1, max_depth: 0 };
+/// let view = RenderSettings { size: Some((8, 8)), max_depth: 0, ..RenderSettings::DEFAULT };
 /// let prepared = quantise::<f32>(&octray_scenes::parse(file).unwrap(), &view)?;
 /// let scene = prepared.scene.scene();
 ///

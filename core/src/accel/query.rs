@@ -38,11 +38,20 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     }
 
     /// Tests the objects of a list up to the marked one. True if the query is over.
+    ///
+    /// With `INLINE` the tests are compiled into the walk. Without, hosts call [`Shapes::shared_hit`], so that a walk is
+    /// a fifth of the code. Firmware has one walk, and always inlines.
+    ///
+    /// [`Shapes::shared_hit`]: crate::shape::Shapes::shared_hit
     #[inline(always)]
-    pub(super) fn test_list(&mut self, links: &[ObjectRef]) -> bool {
+    pub(super) fn test_list<const INLINE: bool>(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
             let shapes = &self.scene.shapes;
-            let hit = shapes.hit(object, self.ray, self.limit, self.observer);
+            let hit = if INLINE || cfg!(target_os = "none") {
+                shapes.hit(object, self.ray, self.limit, self.observer)
+            } else {
+                shapes.shared_hit(object, self.ray, self.limit, self.observer)
+            };
             self.observer.test(object.kind(), hit.is_some());
             if let Some(t) = hit {
                 if ANY {

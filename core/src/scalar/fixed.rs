@@ -14,6 +14,7 @@ pub use wide::Fixed64;
 use super::operators::operators;
 use super::zeros::{leading_zeros, leading_zeros_64};
 use super::{Exponent, Intensity, Ratio, SaturationCounter, Scalar, Tolerance, multiply};
+use crate::array::map3;
 use core::cmp::Ordering;
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
@@ -233,7 +234,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = leading_zeros(size).saturating_sub(1);
-        let [x, y, z] = v.map(|c| c.0 << up);
+        let [x, y, z] = map3(v, |c| c.0 << up);
         // In [2⁶⁰, 2⁶⁴): an even number of leading zeros is 0 or 2.
         let square = multiply::square(x)
             .wrapping_add(multiply::square(y))
@@ -244,7 +245,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         // Below the upper word of the product, and at most 26.
         let shift = 30 - F - zeros / 2;
         let half = (1i32 << shift) >> 1;
-        let unit = [x, y, z].map(|c| {
+        let unit = map3([x, y, z], |c| {
             let product = multiply::signed(c, inverse_q30 as i32);
             Self::from_bits(((product >> 32) as i32).wrapping_add(half) >> shift)
         });

@@ -26,7 +26,10 @@ impl<S: Scalar> Patch<S> {
         normals: &[Vec3<S>],
     ) -> Option<Vec3<S>> {
         let normals = normals.get(self.first_normal as usize..)?;
-        let local = |a: [S; 2], b: [S; 2]| [0, 1].map(|i| (a[i] - b[i]).to_local(self.exponent));
+        let local = |a: [S; 2], b: [S; 2]| {
+            let along = |i: usize| (a[i] - b[i]).to_local(self.exponent);
+            [along(0), along(1)]
+        };
         let area =
             |a: [S; 2], b: [S; 2]| S::narrow(S::product(a[0], b[1]) - S::product(a[1], b[0]));
         let origin = *corners.first()?;

@@ -5,8 +5,8 @@ use octray_core::accel::{Accelerator, BruteForce, BuildOptions, LinkBy, OctreeVa
 use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
-use octray_scenes::quantise::Quantised;
-use octray_scenes::tree::{Growth, OctantTree, PackedTree, TightTree, every_object};
+use octray_prepare::quantise::Quantised;
+use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
 use std::collections::BTreeMap;
 
 /// A tree with its name and the scene in its order.
@@ -20,11 +20,11 @@ pub(crate) struct Forest<S: Quantize> {
     /// All objects.
     pub(crate) all: Vec<ObjectRef>,
     /// The 8-wide BVH.
-    pub(crate) bvh8: Built<S, TightTree<S::Bound>>,
+    pub(crate) bvh8: Built<S, OwnedBvh8<S::Bound>>,
     /// The compact one.
-    pub(crate) compact: Built<S, PackedTree>,
+    pub(crate) compact: Built<S, OwnedCompactBvh8>,
     /// Octrees.
-    pub(crate) octrees: Vec<Built<S, OctantTree<S::Bound>>>,
+    pub(crate) octrees: Vec<Built<S, OwnedOctree<S::Bound>>>,
 }
 
 impl<S: Quantize> Forest<S> {
@@ -71,19 +71,19 @@ impl<S: Quantize> Forest<S> {
             all: every_object(bare),
             bvh8: {
                 let mut scene = bare.clone();
-                let (tree, _) = TightTree::build(&mut scene, &bvh8.1);
+                let (tree, _) = OwnedBvh8::build(&mut scene, &bvh8.1);
                 (bvh8.0, scene, tree)
             },
             compact: {
                 let mut scene = bare.clone();
-                let (tree, _) = PackedTree::build(&mut scene, &bvh8.1).expect("few objects");
+                let (tree, _) = OwnedCompactBvh8::build(&mut scene, &bvh8.1).expect("few objects");
                 ("compact bvh8", scene, tree)
             },
             octrees: octrees
                 .into_iter()
                 .map(|(name, growth, variant, link)| {
                     let mut scene = bare.clone();
-                    let (tree, _) = OctantTree::build(&mut scene, &growth, variant, link);
+                    let (tree, _) = OwnedOctree::build(&mut scene, &growth, variant, link);
                     (name, scene, tree)
                 })
                 .collect(),

@@ -6,7 +6,7 @@ use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
 use octray_core::ray::{Aabb, Ray};
 use octray_core::vec3::{Axis, Vec3, vec3};
-use octray_scenes::quantise::{Prepared, Quantised};
+use octray_prepare::quantise::{Prepared, Quantised};
 
 /// Makes rays for one scene.
 pub(crate) struct Rays<'a, S: Quantize> {

@@ -22,7 +22,7 @@ use kernels::{Shapes, Stack, Walk};
 use octray_core::accel::Accelerator;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
-use octray_firmware_sim::tally::Tally;
+use octray_embedded::tally::Tally;
 use semihosting::process::exit;
 
 /// Calls, tells, exits.

@@ -1,16 +1,17 @@
 //! Arguments of `octray diff`.
 
 use super::{files, value};
-use crate::diff::{Bounds, DiffJob, Share};
-use crate::error::Error;
-use crate::picture::{RasDepth, Target};
+use crate::diff::{DiffJob, DiffLimits, Share};
 use clap::Args;
+use octray_prepare::choice::Choice;
+use octray_render::error::Error;
+use octray_render::picture::{RasDepth, Target};
 use std::path::PathBuf;
 
 /// Arguments of `octray diff`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Pictures are PNG, PPM (P6), PFM or Sun rasterfiles, whatever their names, and are compared by their \
+Pictures are PNG, PPM (P6), PFM or Sun rasterfiles; the file's contents decide. They are compared by their \
 8-bit levels. A pixel's difference is the largest of its channels' differences. The exit code is 1 when \
 any bound is exceeded. In JSON, the PSNR of equal pictures, which is infinite, is null.")]
 pub struct DiffArgs {
@@ -24,7 +25,7 @@ pub struct DiffArgs {
     #[arg(short, long, value_name = "FILE", value_parser = value::target())]
     output: Option<Target>,
     /// Bits per pixel of a heat map that is a Sun rasterfile
-    #[arg(long, value_name = "BITS", value_enum, default_value_t)]
+    #[arg(long, value_name = "BITS", value_parser = value::choice::<RasDepth>(), default_value = RasDepth::default().name())]
     ras_depth: RasDepth,
     /// Print one JSON object instead of text
     #[arg(long)]
@@ -49,7 +50,7 @@ pub struct DiffArgs {
 const BOUNDS: &str = "Bounds";
 
 impl DiffArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
     /// [`Error::Usage`] if the heat map would replace a picture.
@@ -62,7 +63,7 @@ impl DiffArgs {
             heat: self.output,
             ras_depth: self.ras_depth,
             json: self.json,
-            bounds: Bounds {
+            limits: DiffLimits {
                 rmse: self.max_rmse,
                 psnr: self.min_psnr,
                 largest: self.max_difference,

@@ -1,20 +1,95 @@
-//! Values on the command line, checked where they are read.
+//! Parsers of values on the command line, with range checks.
 
 use crate::diff::Share;
-use crate::picture::Target;
-use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use octray_prepare::choice::Choice;
+use octray_render::picture::Target;
+use std::ffi::OsStr;
+use std::marker::PhantomData;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
-/// A picture file whose extension names its format.
+/// Parses the name of a picture file whose extension states its format.
 pub fn target() -> impl TypedValueParser<Value = Target> {
     PathBufValueParser::new().try_map(Target::new)
 }
 
-/// `WxH`, both 1 to 65535.
+/// Parses one of a list of names; help shows the list with the meaning of each name.
+pub fn choice<T: Choice>() -> ChoiceParser<T> {
+    ChoiceParser {
+        ignore_case: false,
+        named: PhantomData,
+    }
+}
+
+/// Parses the names of a [`Choice`].
+#[derive(Clone, Debug)]
+pub struct ChoiceParser<T> {
+    ignore_case: bool,
+    named: PhantomData<fn() -> T>,
+}
+
+impl<T> ChoiceParser<T> {
+    /// Ignores the case of letters.
+    #[must_use]
+    pub fn ignore_case(self) -> Self {
+        Self {
+            ignore_case: true,
+            ..self
+        }
+    }
+}
+
+impl<T: Choice> TypedValueParser for ChoiceParser<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
+        let text = value.to_string_lossy();
+        let is = |name: &str| match self.ignore_case {
+            true => name.eq_ignore_ascii_case(&text),
+            false => name == text,
+        };
+        let mut all = T::all().into_iter();
+        let found = all.find(|value| value.names().iter().any(|name| is(name)));
+        found.ok_or_else(|| {
+            let mut error = clap::Error::new(ErrorKind::InvalidValue).with_cmd(command);
+            if let Some(argument) = argument {
+                let name = ContextValue::String(argument.to_string());
+                error.insert(ContextKind::InvalidArg, name);
+            }
+            let value = ContextValue::String(text.into_owned());
+            error.insert(ContextKind::InvalidValue, value);
+            let names = T::all().into_iter().map(|value| value.name().to_owned());
+            error.insert(
+                ContextKind::ValidValue,
+                ContextValue::Strings(names.collect()),
+            );
+            error
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let shown = |value: T| {
+            let names = value.names().into_iter();
+            let others = names.filter(move |name| *name != value.name());
+            PossibleValue::new(value.name())
+                .aliases(others)
+                .help(value.help())
+        };
+        Some(Box::new(T::all().into_iter().map(shown)))
+    }
+}
+
+/// Parses `WxH`, both from 1 to 65535.
 ///
 /// # Errors
-/// What was expected.
+/// States what was expected.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
     text.split_once(['x', 'X'])
@@ -22,16 +97,16 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
 }
 
-/// A whole number of at least 1, for one of the `NonZero` types.
+/// Parses a whole number of at least 1 into one of the `NonZero` types.
 pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
-/// The largest count of processors or threads, and side of a packet: no picture has more rows.
-const MOST: u32 = 65_536;
+/// The largest number of processors or threads, and the largest side of a tile: no picture has more rows.
+pub(super) const MOST: u32 = 65_536;
 
-/// A whole number from 1 to [`MOST`].
+/// Parses a whole number from 1 to [`MOST`].
 pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
     positive(text)
         .ok()
@@ -39,42 +114,12 @@ pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
 }
 
-/// The same for a number of threads.
+/// Parses a number of threads from 1 to [`MOST`].
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     NonZeroUsize::try_from(count(text)?).map_err(|cause| cause.to_string())
 }
 
-/// Whole numbers, none of them 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Whole(pub(super) Vec<NonZeroU32>);
-
-/// Whole numbers such as `1,2,7`, or `1..1024`: the first one, doubled until it would pass the last one.
-pub(super) fn doubling(text: &str) -> Result<Whole, String> {
-    let numbers = match text.split_once("..") {
-        Some((first, last)) => {
-            let (first, last) = (
-                positive::<NonZeroU32>(first)?,
-                positive::<NonZeroU32>(last)?,
-            );
-            let next = |n: &NonZeroU32| n.checked_mul(const { NonZeroU32::new(2).unwrap() });
-            std::iter::successors(Some(first), next)
-                .take_while(|n| *n <= last)
-                .collect()
-        }
-        None => text
-            .split(',')
-            .map(positive)
-            .collect::<Result<Vec<_>, _>>()?,
-    };
-    match numbers.iter().all(|n| n.get() <= MOST) && !numbers.is_empty() {
-        true => Ok(Whole(numbers)),
-        false => Err(format!(
-            "expected numbers from 1 to {MOST} such as 1,2,7 or 1..1024"
-        )),
-    }
-}
-
-/// A weight from 0 to 1, as a number or as a fraction such as `1/512`.
+/// Parses a weight from 0 to 1: a number, or a fraction such as `1/512`.
 pub(crate) fn weight(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.parse::<f64>().ok();
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
@@ -85,7 +130,7 @@ pub(crate) fn weight(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a weight from 0 to 1, such as 0.01 or 1/512".into())
 }
 
-/// A finite number of at least 0.
+/// Parses a finite number of at least 0.
 pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
@@ -93,7 +138,7 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number, at least 0".into())
 }
 
-/// A number of pixels, or a percentage of them such as `0.1%`.
+/// Parses a number of pixels, or a percentage such as `0.1%`.
 pub(super) fn share(text: &str) -> Result<Share, String> {
     let expected = "expected a number of pixels, or a percentage of them such as 0.1%";
     match text.strip_suffix('%') {
@@ -104,17 +149,6 @@ pub(super) fn share(text: &str) -> Result<Share, String> {
             .map(Share::Percent)
             .ok_or_else(|| expected.into()),
     }
-}
-
-/// Each once, in the order of their first mention.
-pub(super) fn once<T>(all: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
-    let mut found: Vec<T> = Vec::new();
-    for item in all {
-        if !found.iter().any(|known| same(known, &item)) {
-            found.push(item);
-        }
-    }
-    found
 }
 
 #[cfg(test)]
@@ -129,17 +163,6 @@ mod tests {
             "", "640", "0x5", "5x0", "65536x1", "1x2x3", "-1x2", "1.5x2", "ax2",
         ] {
             assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn lists_of_numbers() {
-        let numbers = |text| doubling(text).map(|list| list.0.iter().map(|n| n.get()).collect());
-        assert_eq!(numbers("1,7,2"), Ok(vec![1, 7, 2]));
-        assert_eq!(numbers("1..9"), Ok(vec![1, 2, 4, 8]));
-        assert_eq!(numbers("3..3"), Ok(vec![3]));
-        for wrong in ["", "0", "1,", "0..4", "4..1", "1..", "99999", "a"] {
-            assert!(doubling(wrong).is_err(), "{wrong}");
         }
     }
 

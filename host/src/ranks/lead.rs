@@ -1,24 +1,24 @@
-//! What the first rank does: tell the others, deal packets, take what comes back, and trace meanwhile.
+//! The first rank: sends the work to the others, hands out tiles, receives results, and traces meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
-use crate::cost;
-use crate::deal::Deal;
-use crate::error::Error;
-use crate::interrupt::Interrupt;
-use crate::job::{RenderJob, WorkOptions};
-use crate::packets::Part;
-use crate::packing;
-use crate::picture::Picture;
-use crate::progress::Progress;
-use crate::render::Traced;
-use crate::stats::{Messages, Work};
-use crate::trace;
+use crate::job::RenderJob;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_engine as engine;
+use octray_render::cost;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::picture::Picture;
+use octray_render::progress::Progress;
+use octray_render::render;
+use octray_render::render::Rendering;
+use octray_render::renderer::{self, Renderer};
+use octray_render::schedule::Schedule;
+use octray_render::scheduler::Scheduler;
+use octray_render::stats::{Messages, Work};
+use octray_render::tile::TileBuffer;
 use octray_scenes::model::Scene;
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -30,14 +30,14 @@ pub(super) struct Leader<'a> {
     state: State,
 }
 
-/// What the other ranks do.
+/// The state of the other ranks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     /// They wait for the scene.
     Waiting,
     /// They trace.
     Working,
-    /// They have done all there was.
+    /// They have finished.
     Done,
 }
 
@@ -47,74 +47,69 @@ impl<'a> Leader<'a> {
         Self { world, state }
     }
 
-    /// Whether the others still wait to be told what to do.
+    /// Whether the others still wait for the scene.
     pub(super) fn waited_for(&self) -> bool {
         self.state == State::Waiting
     }
 
-    /// Whether no other rank is at work.
+    /// Whether no other rank is working.
     pub(super) fn alone(&self) -> bool {
         self.state != State::Working
     }
 
-    /// Trace what the job asks for, together with the others.
+    /// Traces the job together with the others.
     ///
     /// # Errors
-    /// As [`trace::trace`], and [`Error::Failed`] when a message makes no sense.
+    /// Those of [`render::render_with`], and [`Error::Failed`] for an invalid message.
     pub(super) fn trace(
         &mut self,
         scene: &Scene,
         job: &RenderJob,
-        progress: &Progress,
+        progress: &dyn Progress,
         interrupt: &Interrupt,
-    ) -> Result<Traced, Error> {
+    ) -> Result<Rendering, Error> {
         let begin = Instant::now();
-        let engine = engine::build(scene, job.arith, &job.tree, &job.view)?;
+        let renderer = renderer::prepare(scene, &job.settings)?;
         let build = begin.elapsed();
         let begin = Instant::now();
-        let (mut picture, region) = trace::blank(&*engine, job.output.holds_intensities())?;
+        let (mut picture, region) = render::blank(&*renderer, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
-        let work = WorkOptions {
-            threads,
-            ..job.work
-        };
-        let packing = packing::choose(&*engine, &region, &work, interrupt)?;
-        let parts: Vec<_> = packing.shape.cut(&region).collect();
+        // A message is too expensive for smaller tiles to pay.
+        let shape = job.work.tile.unwrap_or(Schedule::TILE);
+        let parts: Vec<_> = shape.cut(&region).collect();
+        let order = render::order(&*renderer, job.work.policy, &parts, interrupt)?;
         let intensities = job.output.holds_intensities();
         if parts
             .first()
             .is_some_and(|part| buffer(part, intensities).is_none())
         {
-            let shape = packing.shape;
-            let why = format!("packets of {shape} are too large to be sent: choose smaller ones");
+            let why = format!("tiles of {shape} are too large for a message: choose smaller ones");
             return Err(failed(why));
         }
         let plan = Plan {
             scene: Cow::Borrowed(scene),
-            arith: job.arith,
-            tree: job.tree,
-            view: job.view,
-            shape: packing.shape,
+            settings: job.settings,
+            shape,
             intensities,
         };
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
-        // As with threads, what comes before the dealing is neither idle nor the picture's.
+        // As with threads, time before the first tile counts neither as idle nor as rendering.
         let dealing = Instant::now();
         let count = parts.len();
         progress.start(count);
         let (own, mut messages, tallies) = {
             let mut desk = Desk {
                 world: self.world,
-                deal: Deal::new(packing.policy, count, threads, packing.order),
+                deal: Scheduler::new(job.work.policy, count, threads, order),
                 parts,
                 picture: &mut picture,
                 progress,
                 messages: Messages::default(),
                 tallies: vec![None; ranks],
             };
-            let own = desk.run(&*engine, interrupt)?;
+            let own = desk.run(&*renderer, interrupt)?;
             (own, desk.messages, desk.tallies)
         };
         self.state = State::Done;
@@ -134,15 +129,14 @@ impl<'a> Leader<'a> {
         let idle = |tally: &Tally| (dealing - tally.busy).max(0.0);
         let work = Work {
             threads: ranks,
-            schedule: packing.policy,
-            packet: packing.shape,
-            packets: count,
-            forecast: packing.forecast,
+            schedule: job.work.policy,
+            tile: shape,
+            tiles: count,
             messages: Some(messages),
             idle: tallies.iter().map(idle).collect(),
         };
-        let built = engine.built();
-        Ok(trace::traced(
+        let built = renderer.built();
+        Ok(render::rendering(
             built,
             picture,
             counters,
@@ -153,23 +147,22 @@ impl<'a> Leader<'a> {
     }
 }
 
-/// Where packets are handed out and taken back.
+/// Hands out tiles and receives results.
 struct Desk<'a> {
     world: &'a SimpleCommunicator,
-    deal: Deal,
+    deal: Scheduler,
     parts: Vec<Region>,
     picture: &'a mut Picture,
-    progress: &'a Progress,
+    progress: &'a dyn Progress,
     messages: Messages,
-    /// What the other ranks did, once they have told.
+    /// The counts of the ranks that have finished.
     tallies: Vec<Option<Tally>>,
 }
 
 impl Desk<'_> {
-    /// Traces packets, and answers the others between them, until all have done all there is. Returns what
-    /// was done here.
-    fn run(&mut self, engine: &dyn engine::Engine, interrupt: &Interrupt) -> Result<Tally, Error> {
-        let mut worker = engine.worker();
+    /// Traces tiles, and answers the other ranks between them, until all have finished. Returns what this rank did.
+    fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Tally, Error> {
+        let mut worker = renderer.worker();
         let mut busy = Duration::ZERO;
         loop {
             interrupt.check()?;
@@ -179,8 +172,8 @@ impl Desk<'_> {
             let next = self.deal.next(0);
             if let Some(dealt) = next {
                 let begin = Instant::now();
-                let mut part = self.part(dealt.packet);
-                worker.trace(part.packet());
+                let mut part = self.part(dealt.tile);
+                worker.trace(part.tile());
                 busy += begin.elapsed();
                 self.picture.put(&part);
                 self.progress.step();
@@ -193,11 +186,11 @@ impl Desk<'_> {
         }
     }
 
-    /// Takes what a rank has done, and gives it something to do.
+    /// Receives a message of a rank and sends it the next tile.
     fn answer(&mut self, message: Message, status: Status) -> Result<(), Error> {
         let begin = Instant::now();
         let (rank, tag) = (status.source_rank(), status.tag());
-        let nonsense = || failed(format!("a message from rank {rank} makes no sense"));
+        let nonsense = || failed(format!("rank {rank} sent an invalid message"));
         let (bytes, _) = (message, status).matched_receive_vec::<u8>();
         if tag == TALLY {
             let tally = postcard::from_bytes(&bytes).map_err(|_| nonsense())?;
@@ -209,7 +202,7 @@ impl Desk<'_> {
             self.progress.step();
         }
         let next = self.deal.next(rank as usize);
-        let next = next.map_or(NONE, |dealt| dealt.packet as u32);
+        let next = next.map_or(NONE, |dealt| dealt.tile as u32);
         let to = self.world.process_at_rank(rank);
         to.send_with_tag(&next.to_le_bytes()[..], PACKET);
         self.messages.count += u64::from(tag == RESULT);
@@ -218,15 +211,15 @@ impl Desk<'_> {
         Ok(())
     }
 
-    /// A part of the picture to be filled.
-    fn part(&self, index: usize) -> Part {
-        Part::black(
+    /// Returns an empty buffer for a tile.
+    fn part(&self, index: usize) -> TileBuffer {
+        TileBuffer::black(
             self.parts[index].clone(),
             self.picture.intensities().is_some(),
         )
     }
 
-    /// Puts a packet that was traced into the picture; `None` if it is none.
+    /// Copies a received tile into the picture; `None` if the message is invalid.
     fn keep(&mut self, bytes: &[u8]) -> Option<()> {
         let (index, pixels) = bytes.split_first_chunk()?;
         let index = u32::from_le_bytes(*index) as usize;

@@ -8,6 +8,7 @@ use crate::accel::query::{Query, accelerate};
 use crate::accel::sah::WIDTH;
 use crate::accel::scalar::AccelScalar;
 use crate::accel::stack::TraversalStack;
+use crate::array::map3;
 use crate::features::FeatureSet;
 use crate::observe::Observer;
 use crate::ray::Ray;
@@ -24,10 +25,10 @@ struct WalkRay<B: ClipBoxes> {
 impl<B: ClipBoxes> WalkRay<B> {
     #[inline(always)]
     fn new<S: AccelScalar<Bound = B>>(ray: &Ray<S>) -> Self {
-        let origin = ray.origin.to_array().map(S::to_bound);
-        let inv_direction = ray.direction.to_array().map(S::inv_direction);
+        let origin = map3(ray.origin.to_array(), S::to_bound);
+        let inv_direction = map3(ray.direction.to_array(), S::inv_direction);
         let pick = |flip: bool| {
-            [0, 1, 2].map(|i: usize| {
+            map3([0, 1, 2], |i: usize| {
                 if inv_direction[i].negative == flip {
                     i
                 } else {
@@ -46,8 +47,8 @@ impl<B: ClipBoxes> WalkRay<B> {
     #[inline(always)]
     fn slab_planes<'n>(&self, node: &'n Bvh8Node<B>) -> SlabPlanes<'n, B> {
         SlabPlanes {
-            near: self.near.map(|i| &node.planes[i]),
-            far: self.far.map(|i| &node.planes[i]),
+            near: map3(self.near, |i| &node.planes[i]),
+            far: map3(self.far, |i| &node.planes[i]),
         }
     }
 }
@@ -124,7 +125,7 @@ impl<B: ClipBoxes> Bvh8<'_, B> {
                     }
                 }
                 let start = (word & !ChildWord::LEAF) as usize;
-                if query.test_list(self.links.get(start..).unwrap_or(&[])) {
+                if query.test_list::<true>(self.links.get(start..).unwrap_or(&[])) {
                     return;
                 }
             };

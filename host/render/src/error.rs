@@ -1,0 +1,82 @@
+//! What can go wrong.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A failure, with everything its message needs.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// What is asked for contradicts itself or what it names: the caller is at fault.
+    #[error("{0}")]
+    Usage(String),
+    /// A scene was refused; the text holds the drawn diagnostics, ready to print.
+    #[error("{0}")]
+    Scene(String),
+    /// A file could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What the system or the decoder said.
+        source: io::Error,
+    },
+    /// A file could not be written; nothing is left behind.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What the system or the encoder said.
+        source: io::Error,
+    },
+    /// Standard output could not be written.
+    #[error("cannot write to standard output: {0}")]
+    Stdout(io::Error),
+    /// Whoever read standard output has stopped; not a failure.
+    #[error("standard output was closed")]
+    BrokenPipe,
+    /// Two pictures cannot be compared, being of different sizes (width, height).
+    #[error("the pictures differ in size: {}x{} and {}x{}", .0.0, .0.1, .1.0, .1.1)]
+    Sizes((u32, u32), (u32, u32)),
+    /// Two pictures differ by more than the bounds given; one sentence for each bound.
+    #[error("{}", .0.join("\n"))]
+    Bounds(Vec<String>),
+    /// Work that was accepted could not be done, for the reason told.
+    #[error("{0}")]
+    Failed(String),
+    /// The work was asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// A scene that could not be made ready: it failed.
+impl From<crate::renderer::PrepareError> for Error {
+    fn from(error: crate::renderer::PrepareError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// A scene that was refused, with its mistakes drawn.
+impl From<octray_scenes::ReadError> for Error {
+    fn from(error: octray_scenes::ReadError) -> Self {
+        Self::Scene(error.to_string())
+    }
+}
+
+impl Error {
+    /// A failure to read `path`.
+    pub fn read(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    /// A failure to write `path`.
+    pub fn write(path: &Path, source: io::Error) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}

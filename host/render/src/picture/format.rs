@@ -1,0 +1,236 @@
+//! The picture formats: told by a file's extension when written, by its first bytes when read.
+
+use super::malformed::malformed;
+use super::ras::RasDepth;
+use super::{Picture, pfm, png, ppm, ras};
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::output;
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A picture format, by its extension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Portable Network Graphics, 8-bit RGB.
+    Png,
+    /// Portable pixmap P6, 8-bit RGB.
+    Ppm,
+    /// Portable float map PF, little-endian, the bottom row first.
+    Pfm,
+    /// Sun rasterfile, see [`RasDepth`].
+    Ras,
+}
+
+impl Format {
+    /// Every format with its extension.
+    pub const ALL: [(&str, Self); 4] = [
+        ("png", Self::Png),
+        ("ppm", Self::Ppm),
+        ("pfm", Self::Pfm),
+        ("ras", Self::Ras),
+    ];
+
+    /// The format that a file's extension names, whatever its case.
+    ///
+    /// # Errors
+    /// A sentence naming the known extensions.
+    pub fn of(path: &Path) -> Result<Self, String> {
+        let extension = path.extension().unwrap_or_default();
+        Self::ALL
+            .iter()
+            .find(|(known, _)| extension.eq_ignore_ascii_case(known))
+            .map(|(_, format)| *format)
+            .ok_or_else(|| unknown(extension))
+    }
+}
+
+fn unknown(extension: &OsStr) -> String {
+    let known = Format::ALL.map(|(name, _)| format!(".{name}")).join(", ");
+    match extension.is_empty() {
+        true => format!("a picture's name ends in one of {known}"),
+        false => format!(
+            "'.{}' is no picture format known here; the known ones are {known}",
+            extension.to_string_lossy()
+        ),
+    }
+}
+
+/// A picture file to write: its name, and the format its extension names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The file.
+    pub path: PathBuf,
+    /// Its format.
+    pub format: Format,
+}
+
+impl Target {
+    /// The target that `path` names.
+    ///
+    /// # Errors
+    /// As [`Format::of`].
+    pub fn new(path: PathBuf) -> Result<Self, String> {
+        let format = Format::of(&path)?;
+        Ok(Self { path, format })
+    }
+
+    /// Whether the format holds intensities rather than levels.
+    pub fn holds_intensities(&self) -> bool {
+        self.format == Format::Pfm
+    }
+
+    /// Write `picture` whole or not at all.
+    ///
+    /// # Errors
+    /// As [`output::write_file`].
+    pub fn write(
+        &self,
+        picture: &Picture,
+        ras_depth: RasDepth,
+        interrupt: &Interrupt,
+    ) -> Result<(), Error> {
+        output::write_file(&self.path, interrupt, |out| {
+            encode(picture, self.format, ras_depth, out)
+        })
+    }
+}
+
+fn encode(
+    picture: &Picture,
+    format: Format,
+    ras_depth: RasDepth,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Format::Png => png::write(picture, out),
+        Format::Ppm => ppm::write(picture, out),
+        Format::Pfm => pfm::write(picture, out),
+        Format::Ras => ras::write(picture, ras_depth, out),
+    }
+}
+
+/// Read a picture of any of the formats, told by its first bytes.
+///
+/// # Errors
+/// [`Error::Read`] when the file cannot be read or is no such picture.
+pub fn read(path: &Path) -> Result<Picture, Error> {
+    File::open(path)
+        .and_then(|file| decode(&mut BufReader::new(file)))
+        .map_err(|source| match source.kind() {
+            ErrorKind::UnexpectedEof => Error::read(path, malformed("the picture is cut short")),
+            _ => Error::read(path, source),
+        })
+}
+
+fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
+    match input.fill_buf()? {
+        [0x89, b'P', b'N', b'G', ..] => png::read(input),
+        [b'P', b'6', ..] => ppm::read(input),
+        [b'P', b'F' | b'f', ..] => pfm::read(input),
+        [0x59, 0xa6, 0x6a, 0x95, ..] => ras::read(input),
+        [] => Err(malformed("the file is empty")),
+        _ => Err(malformed(
+            "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tile::Level;
+
+    /// More than 256 colours, no symmetry.
+    fn colourful(width: u32, height: u32) -> Picture {
+        let levels = (0..width * height)
+            .map(|i| [i * 7, i * 13 + 5, i * 31 + 90].map(|v| v as u8) as Level)
+            .collect();
+        Picture::from_levels(width, height, levels).unwrap()
+    }
+
+    fn round_trip(picture: &Picture, format: Format, depth: RasDepth) -> Picture {
+        let mut bytes = Vec::new();
+        encode(picture, format, depth, &mut bytes).unwrap();
+        let decoded = decode(&mut bytes.as_slice()).unwrap();
+        for cut in (0..bytes.len()).step_by(1 + bytes.len() / 100) {
+            assert!(
+                decode(&mut &bytes[..cut]).is_err(),
+                "{format:?} cut to {cut}"
+            );
+        }
+        decoded
+    }
+
+    #[test]
+    fn every_format_gives_back_its_levels_at_odd_and_even_widths() {
+        for (width, height) in [(1, 1), (3, 2), (4, 3), (17, 5), (16, 20)] {
+            let picture = colourful(width, height);
+            for (_, format) in Format::ALL {
+                let back = round_trip(&picture, format, RasDepth::TwentyFour);
+                assert_eq!(back.size(), (width, height), "{format:?}");
+                assert_eq!(back.levels(), picture.levels(), "{format:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_damaged_file_is_read_or_refused_but_never_panics() {
+        let picture = colourful(5, 4);
+        for (_, format) in Format::ALL {
+            for depth in [RasDepth::Eight, RasDepth::TwentyFour] {
+                let mut bytes = Vec::new();
+                encode(&picture, format, depth, &mut bytes).unwrap();
+                for place in 0..bytes.len().min(200) {
+                    for damage in [0, 1, 2, 3, 9, 24, 32, b'-', b'9', 0x7f, 0xff] {
+                        let mut damaged = bytes.clone();
+                        damaged[place] = damage;
+                        let _ = decode(&mut damaged.as_slice());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rasterfile_with_a_map_is_exact_up_to_256_colours() {
+        for (width, height) in [(16, 16), (17, 15), (1, 2)] {
+            let picture = colourful(width, height);
+            assert_eq!(round_trip(&picture, Format::Ras, RasDepth::Eight), picture);
+        }
+    }
+
+    #[test]
+    fn intensities_survive_a_float_map_bit_for_bit() {
+        let rgb = [[0.1, 0.2, 0.3], [1.5, -0.0, 1e-30], [0.999, 0.5, 0.25]];
+        let picture = Picture::from_intensities(1, 3, rgb.to_vec()).unwrap();
+        assert_eq!(round_trip(&picture, Format::Pfm, RasDepth::Eight), picture);
+    }
+
+    #[test]
+    fn an_unknown_extension_is_told_with_the_known_ones() {
+        assert_eq!(Format::of(Path::new("a/b.PNG")), Ok(Format::Png));
+        for name in ["a.bmp", "a", "png", "a.png/b"] {
+            let text = Format::of(Path::new(name)).unwrap_err();
+            assert!(text.contains(".png, .ppm, .pfm, .ras"), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        for bytes in [
+            &b""[..],
+            b"GIF89a",
+            b"P6\n2 2\n65535\n",
+            b"P6\n0 2\n255\n",
+            b"P6 99999999999 2 255 ",
+            b"PF\n1 1\n0\n",
+            b"PF\n1 1\nnan\n",
+            b"P6\n-1 2\n255\n",
+        ] {
+            assert!(decode(&mut &*bytes).is_err(), "{bytes:?}");
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What charts and maps are drawn on: SVG or pixels, with the only font there is.
+
+mod widths;
+
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::picture::{Picture, RasDepth, Target};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontStyle, register_font};
+use std::path::Path;
+use std::sync::Once;
+
+/// Where to draw, in pixels from the upper left corner.
+pub type Area<'a, B> = DrawingArea<B, Shift>;
+/// What drawing comes to.
+pub type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// Something to be drawn.
+pub trait Figure {
+    /// Width and height in pixels.
+    fn size(&self) -> (u32, u32);
+
+    /// Draws it.
+    ///
+    /// # Errors
+    /// What the backend says.
+    fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B>;
+}
+
+/// The figure as SVG. Where it is shown with another font, its texts keep their widths.
+///
+/// # Errors
+/// When it cannot be drawn.
+pub fn svg(figure: &impl Figure) -> Result<String, Error> {
+    let mut text = String::new();
+    let backend = SVGBackend::with_string(&mut text, figure.size());
+    draw(&backend.into_drawing_area(), figure)?;
+    Ok(widths::held(&text))
+}
+
+/// The figure in pixels.
+///
+/// # Errors
+/// When it cannot be drawn, or there is no memory for it.
+pub fn picture(figure: &impl Figure) -> Result<Picture, Error> {
+    let (width, height) = figure.size();
+    let mut bytes = vec![0; 3 * width as usize * height as usize];
+    let backend = BitMapBackend::with_buffer(&mut bytes, (width, height));
+    draw(&backend.into_drawing_area(), figure)?;
+    let levels = bytes.as_chunks().0.to_vec();
+    Picture::from_levels(width, height, levels)
+        .ok_or_else(|| Error::Failed("a chart has lost pixels".into()))
+}
+
+/// Whether a chart's file is to be SVG: any other name has to be a picture's.
+pub fn is_svg(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("svg"))
+}
+
+/// Writes the figure as what the file's name says: `.svg`, or a picture.
+///
+/// # Errors
+/// When it cannot be drawn or written, or the name says nothing known.
+pub fn write_figure(path: &Path, figure: &impl Figure, interrupt: &Interrupt) -> Result<(), Error> {
+    if is_svg(path) {
+        let text = svg(figure)?;
+        return output::write_file(path, interrupt, |out| out.write_all(text.as_bytes()));
+    }
+    let target = Target::new(path.into()).map_err(Error::Usage)?;
+    target.write(&picture(figure)?, RasDepth::default(), interrupt)
+}
+
+fn draw<B: DrawingBackend>(area: &Area<'_, B>, figure: &impl Figure) -> Result<(), Error> {
+    register();
+    let failed = |cause| Error::Failed(format!("cannot draw a chart: {cause}"));
+    area.fill(&WHITE).map_err(failed)?;
+    figure.paint(area).map_err(failed)?;
+    area.present().map_err(failed)
+}
+
+/// The only font there is, so that figures are the same on every machine.
+fn register() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        // It fails only on bytes that are no font.
+        let font = epaint_default_fonts::UBUNTU_LIGHT;
+        let _ = register_font("sans-serif", FontStyle::Normal, font);
+    });
+}
+
+/// Writes text of a height in pixels; the place is its upper end, and left, right or middle.
+///
+/// # Errors
+/// What the backend says.
+pub fn write<B: DrawingBackend>(
+    area: &Area<'_, B>,
+    text: &str,
+    place: (i32, i32),
+    height: i32,
+    across: HPos,
+) -> Drawn<B> {
+    write_in(area, text, place, height, across, BLACK)
+}
+
+/// The same in another colour than black.
+///
+/// # Errors
+/// What the backend says.
+pub fn write_in<B: DrawingBackend>(
+    area: &Area<'_, B>,
+    text: &str,
+    place: (i32, i32),
+    height: i32,
+    across: HPos,
+    ink: RGBColor,
+) -> Drawn<B> {
+    let style = ("sans-serif", height)
+        .into_text_style(area)
+        .color(&ink)
+        .pos(Pos::new(across, VPos::Top));
+    area.draw(&Text::new(text, place, style))
+}

@@ -1,0 +1,207 @@
+//! Frames on boards: built, run, counted and compared with the host's.
+
+use super::board::Board;
+use super::emulate::Emulator;
+use super::job::{BuildOptions, MeasureJob};
+use super::memory::Memory;
+use super::reference::{self, Reference};
+use super::row::{Cost, Row};
+use super::workspace::Workspace;
+use crate::tables::subject::FIGURES;
+use octray_prepare::choice::Choice;
+use octray_prepare::{Arith, RenderSettings};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::progress::Progress;
+use octray_scenes::model::Scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The functions whose calls are the search for what a ray meets.
+pub const SEARCH: &str = "nearest:any_hit:blocks";
+
+/// A scene that has been read.
+#[derive(Debug)]
+pub struct Named {
+    /// Its name: the file's, without folder and extension.
+    pub name: String,
+    /// The file, from the root.
+    pub path: PathBuf,
+    /// What is in it.
+    pub scene: Scene,
+}
+
+impl Named {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is wrong.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let scene = octray_scenes::read(path)?;
+        let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self {
+            name: name.into_owned(),
+            path: path.clone(),
+            scene,
+        })
+    }
+}
+
+/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
+///
+/// # Errors
+/// If one cannot be read, or is wrong.
+pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
+    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
+    if !named.is_empty() {
+        let named = named.iter();
+        return named.map(|path| read(path.clone(), path)).collect();
+    }
+    let root = Workspace::root()?;
+    (FIGURES.iter())
+        .map(|figure| {
+            let told = PathBuf::from(format!("scenes/{}.scene", figure.name));
+            let path = root.join(&told);
+            read(told, &path)
+        })
+        .collect()
+}
+
+/// What measures.
+pub struct Bench<'a> {
+    /// The firmware's sources.
+    pub workspace: &'a Workspace,
+    /// The boards' emulator.
+    pub emulator: &'a Emulator<'a>,
+    /// Shows how far it is.
+    pub progress: &'a dyn Progress,
+    /// Asks to stop.
+    pub interrupt: &'a Interrupt,
+}
+
+impl Bench<'_> {
+    /// Every scene in every arithmetic on every board, in this order.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`], or when cargo or the emulator cannot be run. A combination that
+    /// fails is a row that says so.
+    pub fn frames(&self, scenes: &[Named], job: &MeasureJob) -> Result<Vec<Row>, Error> {
+        let mut rows = Vec::new();
+        for scene in scenes {
+            let exact = reference::render(&scene.scene, Arith::F64, &job.settings, self.interrupt)?;
+            for &arith in &job.ariths {
+                let reference =
+                    Reference::render(&scene.scene, arith, &job.settings, &exact, self.interrupt);
+                for &board in &job.boards {
+                    let mut row = row(scene, arith, board, job);
+                    let measured = match &reference {
+                        Err(Error::Interrupted) => return Err(Error::Interrupted),
+                        Err(refused) => Err(format!("refused: {refused}")),
+                        Ok(reference) => self.frame(scene, arith, board, job, reference)?,
+                    };
+                    match measured {
+                        Ok((cost, functions)) => {
+                            (row.cost, row.functions) = (Some(cost), functions);
+                        }
+
+                        Err(why) => row.outcome = why,
+                    }
+                    rows.push(row);
+                    self.progress.step();
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// One combination: its cost and its functions, or why there is none.
+    fn frame(
+        &self,
+        scene: &Named,
+        arith: Arith,
+        board: &Board,
+        job: &MeasureJob,
+        reference: &Reference,
+    ) -> Result<Result<(Cost, Functions), String>, Error> {
+        let source = scene.path.to_string_lossy();
+        let program = match self.firmware(&source, arith, board, &job.settings, job.build)? {
+            Ok(program) => program,
+            Err(why) => return Ok(Err(format!("not built: {why}"))),
+        };
+        let run = match self.emulator.run(board, &program, self.interrupt)? {
+            Ok(run) => run,
+            Err(why) => return Ok(Err(why)),
+        };
+        let file = fs::read(&program).map_err(|cause| Error::read(&program, cause))?;
+        let memory = Memory::of(&file)
+            .map_err(|cause| Error::Failed(format!("{}: {cause}", program.display())))?;
+        let told = |name| run.told.get(name).cloned().unwrap_or_default();
+        let (hash, expected) = (told("hash"), reference.traced.picture.hash());
+        if hash != format!("{expected:016x}") {
+            return Ok(Err(format!(
+                "wrong picture: its hash is {hash}, the host's {expected:016x}"
+            )));
+        }
+        let Ok(stack) = told("stack").parse() else {
+            return Ok(Err("its stack is not known".into()));
+        };
+        let cost = Cost::new(board, &run.count, reference, memory, stack, hash);
+        Ok(Ok((cost, run.count.functions)))
+    }
+
+    /// Builds the firmware.
+    fn firmware(
+        &self,
+        scene: &str,
+        arith: Arith,
+        board: &Board,
+        settings: &RenderSettings,
+        options: BuildOptions,
+    ) -> Result<Result<PathBuf, String>, Error> {
+        let (width, height) = settings.size.unwrap_or_default();
+        let size = format!("{width}x{height}");
+        let depth = settings.max_depth.to_string();
+        let pixels = settings.pixels_per_ray.number().to_string();
+        let cut_off = settings.cut_off.to_string();
+        let variables = [
+            ("OCTRAY_SCENE", scene),
+            ("OCTRAY_ARITH", arith.name()),
+            ("OCTRAY_SIZE", &size),
+            ("OCTRAY_MAX_DEPTH", &depth),
+            ("OCTRAY_PIXELS_PER_RAY", &pixels),
+            ("OCTRAY_CUT_OFF", &cut_off),
+            ("OCTRAY_TREE", options.tree.name()),
+        ];
+        let firmware = ("octray-firmware", None);
+        (self.workspace).firmware(
+            firmware,
+            board,
+            options.optimize,
+            &variables,
+            self.interrupt,
+        )
+    }
+}
+
+/// Functions and their own instructions.
+type Functions = Vec<(String, u64)>;
+
+fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> Row {
+    Row {
+        scene: scene.name.clone(),
+        objects: scene.scene.objects.len(),
+        width: job.settings.size.map_or(0, |size| size.0),
+        height: job.settings.size.map_or(0, |size| size.1),
+        max_depth: job.settings.max_depth,
+        pixels_per_ray: job.settings.pixels_per_ray.number(),
+        cut_off: job.settings.cut_off,
+        board,
+        arith,
+        tree: job.build.tree,
+        optimize: job.build.optimize,
+        outcome: "ok".into(),
+        cost: None,
+        functions: Vec::new(),
+    }
+}

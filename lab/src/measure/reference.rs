@@ -1,0 +1,60 @@
+//! The same picture on the host: what the firmware's must be like to the byte, how many rays it
+//! takes, and how far it is from the one in 64-bit floats.
+
+use octray_prepare::{Arith, RenderSettings, TreeSettings};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::render::{Rendering, render_with};
+use octray_render::schedule::Schedule;
+use octray_scenes::model::Scene;
+use std::num::NonZeroUsize;
+
+/// The host's picture.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Picture, rays, format.
+    pub traced: Rendering,
+    /// Its distance from the picture in `f64`, in dB; infinite if they are equal.
+    pub psnr: f64,
+}
+
+impl Reference {
+    /// Renders in an arithmetic, on one thread.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if the scene does not fit the arithmetic, [`Error::Interrupted`].
+    pub fn render(
+        scene: &Scene,
+        arith: Arith,
+        settings: &RenderSettings,
+        exact: &Rendering,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Error> {
+        let traced = render(scene, arith, settings, interrupt)?;
+        let psnr = Difference::between(&exact.picture, &traced.picture)?.psnr();
+        Ok(Self { traced, psnr })
+    }
+}
+
+/// The picture with the settings but in this arithmetic and with the default tree, on one thread.
+///
+/// # Errors
+/// As [`render_with`].
+pub fn render(
+    scene: &Scene,
+    arith: Arith,
+    settings: &RenderSettings,
+    interrupt: &Interrupt,
+) -> Result<Rendering, Error> {
+    let settings = RenderSettings {
+        arith,
+        tree: TreeSettings::default(),
+        ..*settings
+    };
+    let work = Schedule {
+        threads: NonZeroUsize::MIN,
+        ..Schedule::default()
+    };
+    render_with(scene, &settings, &work, false, &(), interrupt)
+}

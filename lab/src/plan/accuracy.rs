@@ -1,0 +1,315 @@
+//! What a picture needs to be accurate enough, whatever computes it: bounces, pixels per ray, and in each
+//! family of numbers the narrowest format. Found by rendering.
+
+use super::events::{Events, Probe};
+use super::job::Numbers;
+use octray_core::accel::{self, COMPACT_MAX_DEPTH};
+use octray_prepare::format::{Family, Format};
+use octray_prepare::plan::{Plan, fingerprint};
+use octray_prepare::quantise::{Bound, bounds};
+use octray_prepare::{PixelsPerRay, RenderSettings};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::metric::Difference;
+use octray_render::picture::Picture;
+use octray_scenes::model::Scene;
+use serde::Serialize;
+use strum::VariantArray;
+
+/// The tree that pictures are compared with; all trees give the same.
+const TREE: accel::BuildOptions = accel::BuildOptions {
+    depth: COMPACT_MAX_DEPTH,
+    leaf_size: 2,
+};
+
+/// The 32-bit fixed-point formats, the narrowest fraction first.
+pub fn fixed_point() -> impl DoubleEndedIterator<Item = Format> {
+    let all = Format::VARIANTS.iter().copied();
+    all.filter(|format| format.family() == Family::Fixed)
+}
+
+/// The scene, and the picture to come close to.
+#[derive(Debug)]
+pub struct Scope<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Columns and rows.
+    pub size: (u32, u32),
+    /// The least distance from the exact picture, in dB.
+    pub min_psnr: f64,
+    /// Asks to stop.
+    pub interrupt: &'a Interrupt,
+}
+
+/// What the picture needs.
+#[derive(Clone, Debug)]
+pub struct Accuracy {
+    /// In 64-bit floats, with as many bounces as there can be.
+    pub exact: Picture,
+    /// The fewest bounces with which the picture is the exact one.
+    pub depth: u32,
+    /// What happens then, in 64-bit floats.
+    pub full: Events,
+    /// What happens with one bounce less, and the distance; none if there are no bounces.
+    pub shallower: Option<(Events, f64)>,
+    /// What happens with one ray for four pixels, and the distance.
+    pub coarse: (Events, f64),
+    /// Pixels that one ray colours.
+    pub pixels_per_ray: PixelsPerRay,
+    /// The largest number that the scene can lead to.
+    pub largest: Bound,
+    /// Bits before the point that it takes.
+    pub integer_bits: u32,
+    /// The least distance that was asked for, in dB.
+    pub min_psnr: f64,
+    /// Why the scene has no fixed point, if it was tried and has none.
+    pub refused: Option<String>,
+    /// Every arithmetic that was tried, the finest first.
+    pub tried: Vec<Tried>,
+}
+
+/// An arithmetic, and how far its picture is from the exact one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tried {
+    /// Its format.
+    pub format: Format,
+    /// Bits behind the point; none for floats.
+    pub fraction_bits: Option<u32>,
+    /// In dB; none if it is the same picture.
+    pub psnr: Option<f64>,
+    /// What it is too coarse for, if anything.
+    pub too_fine: Option<String>,
+    /// Whether that is accurate enough, nothing is too fine, and nothing overflows.
+    pub does: bool,
+}
+
+impl Scope<'_> {
+    /// What the picture needs, when only some arithmetics come into question.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if the scene is too large for a packed tree; [`Error::Interrupted`].
+    pub fn accuracy(&self, numbers: Numbers) -> Result<Accuracy, Error> {
+        let exact = self
+            .render(&self.plan(Format::F64, PixelsPerRay::One, RenderSettings::DEEPEST))?
+            .picture;
+        let depth = self.depth(&exact)?;
+        let full = self
+            .render(&self.plan(Format::F64, PixelsPerRay::One, depth))?
+            .events;
+        let shallower = match depth.checked_sub(1) {
+            None => None,
+            Some(less) => {
+                let probe = self.render(&self.plan(Format::F64, PixelsPerRay::One, less))?;
+                Some((probe.events, psnr(&exact, &probe.picture)?))
+            }
+        };
+        let coarse = self.render(&self.plan(Format::F64, PixelsPerRay::Four, depth))?;
+        let coarse_psnr = psnr(&exact, &coarse.picture)?;
+        let all = bounds(self.scene, depth).into_iter();
+        let largest = all
+            .max_by(|a, b| a.value.total_cmp(&b.value))
+            .unwrap_or(Bound {
+                what: "a direction".into(),
+                value: 1.0,
+            });
+        let mut accuracy = Accuracy {
+            exact,
+            depth,
+            full,
+            shallower,
+            coarse: (coarse.events, coarse_psnr),
+            pixels_per_ray: PixelsPerRay::One,
+            integer_bits: integer_bits(largest.value),
+            largest,
+            min_psnr: self.min_psnr,
+            refused: None,
+            tried: Vec::new(),
+        };
+        if coarse_psnr >= self.min_psnr {
+            accuracy.pixels_per_ray = PixelsPerRay::Four;
+            self.formats(&mut accuracy, numbers)?;
+        }
+        if !accuracy.tried.iter().any(|tried| tried.does) {
+            accuracy.pixels_per_ray = PixelsPerRay::One;
+            self.formats(&mut accuracy, numbers)?;
+        }
+        Ok(accuracy)
+    }
+
+    /// A plan with a tree like any other, and room for all rays.
+    pub fn plan(&self, format: Format, pixels_per_ray: PixelsPerRay, max_depth: u32) -> Plan {
+        Plan {
+            scene: fingerprint(self.scene),
+            format,
+            size: self.size,
+            pixels_per_ray,
+            max_depth,
+            cut_off: RenderSettings::DEFAULT.cut_off,
+            tree: Some(TREE),
+            on_device: false,
+            rays: max_depth as usize + 1,
+        }
+    }
+
+    /// Renders a plan.
+    ///
+    /// # Errors
+    /// As [`Probe::render`].
+    pub fn render(&self, plan: &Plan) -> Result<Probe, Error> {
+        Probe::render(self.scene, plan, self.interrupt)
+    }
+
+    /// The fewest bounces from which on the picture is the exact one.
+    fn depth(&self, exact: &Picture) -> Result<u32, Error> {
+        let is_exact = |depth| -> Result<bool, Error> {
+            let probe = self.render(&self.plan(Format::F64, PixelsPerRay::One, depth))?;
+            Ok(Difference::between(exact, &probe.picture)?.is_zero())
+        };
+        // A surface that lets more light through than it gets takes light away itself.
+        if (self.scene.surfaces.iter()).any(|surface| surface.refract > 1.0) {
+            let mut depth = RenderSettings::DEEPEST;
+            while depth > 0 && is_exact(depth - 1)? {
+                depth -= 1;
+            }
+            return Ok(depth);
+        }
+        // Otherwise more bounces only add light, so that no level goes back, and between a picture like the
+        // exact one and that nothing can have changed.
+        let (mut low, mut high) = (0, RenderSettings::DEEPEST);
+        // Few scenes need many bounces: the steps grow before they shrink.
+        let mut step = 1;
+        while low < high {
+            let middle = (low + step - 1).min((low + high) / 2);
+            match is_exact(middle)? {
+                true => high = middle,
+                false => (low, step) = (middle + 1, 2 * step),
+            }
+        }
+        Ok(low)
+    }
+
+    /// Tries floats, and fixed point from the finest format to the first one that does not do.
+    fn formats(&self, accuracy: &mut Accuracy, numbers: Numbers) -> Result<(), Error> {
+        accuracy.tried.clear();
+        accuracy.refused = None;
+        if numbers != Numbers::Fixed {
+            accuracy.tried.push(self.attempt(accuracy, Format::F32)?);
+        }
+        let fixed = fixed_point().rev().filter(|_| numbers != Numbers::F32);
+        for format in fixed {
+            match self.attempt(accuracy, format) {
+                // What is too large for this format may fit the next.
+                Err(Error::Failed(why)) => accuracy.refused = Some(why),
+                tried => {
+                    let tried = tried?;
+                    let does = tried.does;
+                    accuracy.tried.push(tried);
+                    accuracy.refused = None;
+                    if !does {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn attempt(&self, accuracy: &Accuracy, format: Format) -> Result<Tried, Error> {
+        let probe = self.render(&self.plan(format, accuracy.pixels_per_ray, accuracy.depth))?;
+        let psnr = psnr(&accuracy.exact, &probe.picture)?;
+        Ok(Tried {
+            format,
+            fraction_bits: format.fraction_bits(),
+            psnr: psnr.is_finite().then_some(psnr),
+            does: psnr >= self.min_psnr && probe.too_fine.is_none() && probe.saturations == 0,
+            too_fine: probe.too_fine,
+        })
+    }
+}
+
+impl Accuracy {
+    /// The narrowest format of each family that does.
+    pub fn narrowest(&self) -> impl Iterator<Item = &Tried> {
+        let of = |fixed: bool| {
+            let mut tried = self.tried.iter();
+            tried.rfind(|tried| tried.fraction_bits.is_some() == fixed && tried.does)
+        };
+        [of(true), of(false)].into_iter().flatten()
+    }
+
+    /// The one that comes closest to the exact picture, of those that nothing is too fine for if there are any.
+    pub fn closest(&self) -> Option<&Tried> {
+        let distance = |tried: &Tried| tried.psnr.unwrap_or(f64::INFINITY);
+        (self.tried.iter()).max_by(|a, b| {
+            let resolves = [a, b].map(|tried| tried.too_fine.is_none());
+            let further = distance(a).total_cmp(&distance(b));
+            resolves[0].cmp(&resolves[1]).then(further)
+        })
+    }
+}
+
+/// The fewest bits before the point with which a format holds a number.
+fn integer_bits(largest: f64) -> u32 {
+    (0..31)
+        .find(|bits| largest < f64::from(1u32 << bits) * (1.0 - 1e-6))
+        .unwrap_or(31)
+}
+
+fn psnr(exact: &Picture, picture: &Picture) -> Result<f64, Error> {
+    Difference::between(exact, picture).map(|difference| difference.psnr())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_before_the_point_hold_what_is_below_their_power() {
+        for (largest, bits) in [
+            (0.0, 0),
+            (0.5, 0),
+            (1.0, 1),
+            (1.5, 1),
+            (5.2, 3),
+            (8.0, 4),
+            (1e12, 31),
+        ] {
+            assert_eq!(integer_bits(largest), bits, "{largest}");
+        }
+    }
+
+    /// Before a mirror a white sky; through it panes are seen, of which the third takes away three times what it
+    /// shines: the first bounce makes the picture white, the second black as it was.
+    #[test]
+    fn bounces_that_take_light_away_are_not_skipped() {
+        let pane =
+            |z: i32, surface: &str| format!("f {surface} p 4 -9 -9 {z} 9 -9 {z} 9 9 {z} -9 9 {z} ");
+        let black = "0 0 0 0 0 0 0 0 0 0";
+        let text = [
+            "v 0 0 9 resolution 4 4 b 1 1 1 ".into(),
+            pane(-1, &format!("{black} 1 1 1")),
+            pane(-2, &format!("{black} 0 1 1")),
+            pane(-3, "1 1 1 0 0 0 0 0 0 0 0 3 1"),
+            pane(-4, &format!("{black} 0 0")),
+        ];
+        let scene = octray_scenes::parse(&text.concat()).unwrap();
+        let scope = Scope {
+            scene: &scene,
+            size: (4, 4),
+            min_psnr: 40.0,
+            interrupt: &Interrupt::default(),
+        };
+        let picture = |depth| {
+            scope
+                .render(&scope.plan(Format::F64, PixelsPerRay::One, depth))
+                .unwrap()
+                .picture
+        };
+        let exact = picture(RenderSettings::DEEPEST);
+        assert_eq!(
+            [0, 1, 2].map(|depth| picture(depth) == exact),
+            [true, false, true]
+        );
+        assert_eq!(scope.depth(&exact).unwrap(), 2);
+    }
+}

@@ -1,0 +1,214 @@
+//! A plan with its reasons, to read and as JSON.
+
+use super::accuracy::{Accuracy, Tried};
+use super::choice::{Candidate, Chooser};
+use super::decision::{Cost, Decision, decibels};
+use super::events::Events;
+use super::job::{Bounds, PlanJob};
+use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
+use super::verify::Verification;
+use octray_prepare::plan::Plan;
+use octray_render::counts::thousands;
+use octray_render::error::Error;
+use serde::Serialize;
+
+/// What there is to tell.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The scene file as it was named.
+    pub scene: String,
+    /// The board.
+    pub board: &'static str,
+    /// What had to be kept to.
+    pub bounds: Bounds,
+    /// What was decided.
+    pub decisions: Vec<Decision>,
+    /// Every arithmetic that was tried.
+    pub tried: Vec<Tried>,
+    /// What it will cost; none if nothing is accurate enough.
+    pub cost: Option<Cost>,
+    /// What was measured, if it was.
+    pub trial: Option<Verification>,
+    /// Which bounds fail, by how much, and with which options it fits.
+    pub failures: Vec<String>,
+    /// The plan itself.
+    #[serde(skip)]
+    pub plan: Option<Plan>,
+}
+
+impl Report {
+    fn empty(job: &PlanJob, accuracy: &Accuracy) -> Self {
+        Self {
+            scene: job.scene.display().to_string(),
+            board: job.board.name,
+            bounds: job.bounds,
+            decisions: Vec::new(),
+            tried: accuracy.tried.clone(),
+            cost: None,
+            trial: None,
+            failures: Vec::new(),
+            plan: None,
+        }
+    }
+
+    /// That nothing is accurate enough.
+    pub fn inaccurate(job: &PlanJob, accuracy: &Accuracy) -> Self {
+        let bound = job.bounds.min_psnr;
+        let why = match accuracy.closest() {
+            Some(Tried {
+                too_fine: Some(why),
+                ..
+            }) => format!("resolution: {why}"),
+            Some(Tried { format, psnr, .. }) => {
+                let psnr = (psnr.unwrap_or(f64::INFINITY) * 100.0).floor() / 100.0;
+                format!(
+                    "PSNR: nothing reaches {bound} dB; {format} comes nearest, with {psnr} dB: \
+                     it would do for --min-psnr {psnr}"
+                )
+            }
+            None => {
+                let why = accuracy.refused.as_deref().unwrap_or("nothing was tried");
+                format!("range: {why}; f32 might do")
+            }
+        };
+        Self {
+            failures: vec![why],
+            ..Self::empty(job, accuracy)
+        }
+    }
+
+    /// A plan, chosen among candidates.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if the model does not know the board.
+    pub fn new(
+        job: &PlanJob,
+        accuracy: &Accuracy,
+        candidates: &[Candidate],
+        chosen: &Candidate,
+        chooser: &Chooser<'_>,
+    ) -> Result<Self, Error> {
+        let weights = chooser.weights(chosen.plan.format)?;
+        let tried = |format| accuracy.tried.iter().find(|tried| tried.format == format);
+        let instructions = |events: &Events| weights.instructions(events).iter().sum::<f64>();
+        let less =
+            |events: &Events| Some(instructions(events) / instructions(&accuracy.full) - 1.0);
+        let decisions = vec![
+            bounces(accuracy, less),
+            pixels_per_ray(accuracy, less),
+            numbers(accuracy, candidates, chosen),
+            tree(candidates, chosen),
+            capacities(chosen),
+            code(chosen, &weights.code),
+        ];
+        Ok(Self {
+            decisions,
+            cost: Some(Cost {
+                instructions: chosen.cost.instructions.round() as u64,
+                flash: chosen.cost.flash(),
+                ram: chosen.cost.ram(),
+                psnr: tried(chosen.plan.format).and_then(|tried| tried.psnr),
+                detail: chosen.cost,
+                errors: weights.errors,
+            }),
+            failures: failures(chosen, &job.bounds),
+            plan: Some(chosen.plan.clone()),
+            ..Self::empty(job, accuracy)
+        })
+    }
+
+    /// The plan as `octray bake --plan` takes it.
+    pub fn emitted(&self) -> Option<String> {
+        let plan = self.plan.as_ref()?;
+        let (scene, board) = (&self.scene, self.board);
+        Some(format!("# octray plan {scene} --target {board}\n{plan}"))
+    }
+
+    /// All of it to read.
+    pub fn text(&self) -> String {
+        let Bounds {
+            flash,
+            ram,
+            min_psnr,
+        } = self.bounds;
+        let mut text = line("scene", &self.scene);
+        let (flash, ram) = (thousands(flash), thousands(ram));
+        let bounds = format!("{flash} bytes of flash, {ram} of RAM, at least {min_psnr} dB");
+        text += &line("bounds", &format!("{}: {bounds}", self.board));
+        for decision in &self.decisions {
+            let Decision {
+                about,
+                chosen,
+                why,
+                cheaper,
+            } = decision;
+            text += &line(about, &format!("{chosen}: {why}"));
+            if let Some(cheaper) = cheaper {
+                text += &line("", &format!("next cheaper: {}", cheaper.text()));
+            }
+        }
+        if let Some(cost) = &self.cost {
+            let [instructions, flash, ram] =
+                cost.errors.map(|error| format!("{:.0} %", 100.0 * error));
+            let detail = &cost.detail;
+            text += &line(
+                "flash",
+                &format!(
+                    "{} bytes ± {flash}: {} of code, {} of tables",
+                    thousands(cost.flash),
+                    thousands(detail.code.round() as u64),
+                    thousands(detail.tables as u64),
+                ),
+            );
+            text += &line(
+                "RAM",
+                &format!(
+                    "{} bytes ± {ram}: {} of functions' frames, {} lent",
+                    thousands(cost.ram),
+                    thousands(detail.frames.round() as u64),
+                    thousands(detail.lent.total() as u64),
+                ),
+            );
+            let count = thousands(cost.instructions);
+            text += &line(
+                "instructions",
+                &format!("{count} per frame ± {instructions}"),
+            );
+            text += &line("accuracy", &decibels(cost.psnr));
+        }
+        if let Some(trial) = &self.trial {
+            let measured = [trial.instructions, trial.flash, trial.ram].map(thousands);
+            let [instructions, flash, ram] = [0, 1, 2].map(|i| {
+                format!(
+                    "{} (predicted: {:+.1} %)",
+                    measured[i],
+                    100.0 * trial.errors[i]
+                )
+            });
+            text += &line(
+                "measured",
+                &format!("{instructions} instructions, {flash} bytes of flash, {ram} of RAM"),
+            );
+        }
+        text
+    }
+}
+
+/// A name and what there is to say of it.
+fn line(name: &str, what: &str) -> String {
+    format!("{name:<16}{what}\n")
+}
+
+/// Which bounds a plan fails, and by how much.
+fn failures(chosen: &Candidate, bounds: &Bounds) -> Vec<String> {
+    let needs = [
+        ("flash", chosen.cost.flash(), bounds.flash),
+        ("RAM", chosen.cost.ram(), bounds.ram),
+    ];
+    let failed = needs.into_iter().filter(|(_, needs, has)| needs > has);
+    let told = failed.map(|(what, needs, has)| {
+        let [needed, more, has] = [needs, needs - has, has].map(thousands);
+        format!("{what}: the nearest plan takes {needed} bytes, {more} more than {has}")
+    });
+    told.collect()
+}

@@ -1,0 +1,64 @@
+//! `octray report`: one page with everything that octray has to show of some scenes.
+//!
+//! Each part is a section of the `page`, in this order: `pictures` in every arithmetic and where they
+//! differ; `costs`, the charts of speed against accuracy; `boards`, table III and sizes from the newest
+//! record of `octray measure`; `limits`, the maps of where methods fail.
+
+mod boards;
+mod costs;
+mod limits;
+mod page;
+mod pictures;
+
+use crate::chart::ChartJob;
+use crate::measure::frames;
+use octray_prepare::Arith;
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::output;
+use octray_render::progress::{Bar, Progress};
+use octray_stability::method::Method;
+use page::Section;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// What `octray report` was asked for.
+#[derive(Clone, Debug)]
+pub struct ReportJob {
+    /// The page to write.
+    pub output: PathBuf,
+    /// The arithmetics of the pictures.
+    pub ariths: Vec<Arith>,
+    /// Columns and rows of the pictures.
+    pub size: (u32, u32),
+    /// What to chart: scenes, settings and kinds of cost.
+    pub chart: ChartJob,
+    /// The methods whose limits are shown.
+    pub methods: Vec<Method>,
+    /// How many threads measure them.
+    pub threads: NonZeroUsize,
+}
+
+/// Render, measure, and write the page.
+///
+/// # Errors
+/// When a scene is refused, the page cannot be written, or the work is interrupted. Where a tool is
+/// missing that counts costs, the page says so.
+pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
+    output::probe(&job.output)?;
+    let scenes = frames::scenes(&job.chart.scenes)?;
+    let progress = Bar::new("rendering");
+    progress.start(scenes.len() * job.ariths.len());
+    let pictures = (scenes.iter().enumerate())
+        .map(|(i, (path, scene))| pictures::section(i, scene, path, job, &progress, interrupt))
+        .collect::<Result<Vec<Section>, _>>()?;
+    drop(progress);
+    let mut sections = pictures;
+    sections.push(costs::section(scenes, &job.chart, interrupt)?);
+    sections.extend(boards::sections()?);
+    sections.push(limits::section(job, interrupt)?);
+    let page = page::of(&sections).into_string();
+    output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;
+    let told = format!("{}: {} bytes\n", job.output.display(), page.len());
+    output::write_stdout(interrupt, |out| out.write_all(told.as_bytes()))
+}

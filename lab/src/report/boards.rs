@@ -1,0 +1,107 @@
+//! Small targets, from the newest record of `octray measure` that comes with octray: table III, and sizes.
+
+use super::page::{self, Section, table};
+use crate::tables::emulated;
+use crate::tables::record::{self, Row};
+use crate::tables::text;
+use crate::tables::thesis::Thesis;
+use maud::html;
+use octray_render::counts::thousands;
+use octray_render::error::Error;
+
+/// Table III today, and what programs need.
+///
+/// # Errors
+/// [`Error::Failed`] if the record is none.
+pub(super) fn sections() -> Result<Vec<Section>, Error> {
+    let rows = record::read(record::NEWEST)
+        .map_err(|cause| Error::Failed(format!("{}: {cause}", record::NAME)))?;
+    let commit = rows.first().map_or("", |row| &row.commit);
+    let three = emulated::three(None)?.beside(&Thesis::read(None)?);
+    let measured = format!("{}, measured at commit {commit}", record::NAME);
+    let units = Section {
+        id: "units".into(),
+        title: "Table III, today: without and with a floating-point unit".into(),
+        body: html! {
+            (page::chart(record::CHART, "instructions per pixel without and with a floating-point unit"))
+            pre { (text::grid(&three)) }
+            ul { @for note in text::notes(&three) { li { (note) } } }
+        },
+        commands: vec![
+            "octray tables III".into(),
+            "octray measure --arith f32,approx2,auto --chart table-3.svg".into(),
+        ],
+    };
+    let sizes = Section {
+        id: "sizes".into(),
+        title: "What programs need on small targets".into(),
+        body: html! {
+            p {
+                "Instructions per pixel; bytes of flash, of RAM without the stack, and of the stack; and decibels "
+                "against 64-bit floats, from " (measured) "."
+            }
+            (table(&HEAD, WORDS, &rows.iter().map(cells).collect::<Vec<_>>()))
+        },
+        commands: vec!["octray measure --arith f32,approx2,auto".into()],
+    };
+    Ok(vec![units, sizes])
+}
+
+/// The columns that hold words come first.
+const WORDS: usize = 3;
+const HEAD: [&str; 8] = [
+    "scene",
+    "board",
+    "arithmetic",
+    "per pixel",
+    "flash",
+    "RAM",
+    "stack",
+    "PSNR",
+];
+
+fn cells(row: &Row) -> Vec<String> {
+    let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
+    let (cost, accuracy) = match row.per_pixel {
+        None => (row.outcome.clone(), "–".into()),
+        Some(cost) => (
+            thousands(cost.round() as u64),
+            row.psnr.map_or("equal".into(), |psnr| format!("{psnr:.1}")),
+        ),
+    };
+    vec![
+        row.scene.clone(),
+        row.board.clone(),
+        row.arith.with_format(row.format),
+        cost,
+        whole(row.flash),
+        whole(row.ram),
+        whole(row.stack),
+        accuracy,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_record_that_comes_with_octray_is_shown() {
+        let sections = sections().unwrap();
+        let text: String = sections.iter().map(|s| s.body.0.clone()).collect();
+        for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "not at hand"] {
+            assert!(text.contains(expected), "{expected}");
+        }
+    }
+
+    #[test]
+    fn a_failure_is_not_told_to_be_equal() {
+        let text = "scene,board,arith,format,outcome,per_pixel,flash,ram,stack,psnr,commit,toolchain,emulator\n\
+                    a,m0,f32,,stack overflow,,,,,,c,rustc,QEMU\na,m3,f32,f32,ok,10.4,1000,20,30,,c,rustc,QEMU\n";
+        let rows: Vec<_> = record::read(text).unwrap().iter().map(cells).collect();
+        let failed = ["a", "m0", "f32", "stack overflow", "–", "–", "–", "–"];
+        assert_eq!(rows[0], failed);
+        let equal = ["a", "m3", "f32", "10", "1,000", "20", "30", "equal"];
+        assert_eq!(rows[1], equal);
+    }
+}

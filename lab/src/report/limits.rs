@@ -1,0 +1,77 @@
+//! Where methods fail: the map of each, and the limits.
+
+use super::ReportJob;
+use super::page::{self, Section};
+use crate::canvas;
+use crate::stability::map::Map;
+use crate::stability::queries::Queries;
+use crate::stability::{overview, table};
+use maud::{Markup, html};
+use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
+use octray_render::progress::{Bar, Progress};
+use octray_stability::method::Sweep;
+use octray_stability::number::ARITHMETICS;
+use octray_stability::survey::{self, Outcome, survey};
+use octray_stability::sweep::polygon::Polygon;
+
+/// The arithmetics whose limits stand in the table.
+const TOLD: [&str; 3] = ["f32", "i8f24", "i16f16"];
+/// What the picture of the queries of polygons shows.
+const QUERIES: &str = "every point around a star, as each form decides it";
+
+/// The section: the maps, and the table of limits.
+///
+/// # Errors
+/// When a map cannot be drawn, or the work is interrupted.
+pub(super) fn section(job: &ReportJob, interrupt: &Interrupt) -> Result<Section, Error> {
+    let progress = Bar::new("finding limits");
+    progress.start(survey::steps(&job.methods));
+    let proceed = || {
+        progress.step();
+        !interrupt.requested()
+    };
+    let survey = survey(&job.methods, job.threads, &proceed).ok_or(Error::Interrupted)?;
+    let maps = (survey.outcomes.iter())
+        .map(of_method)
+        .collect::<Result<Vec<_>, _>>()?;
+    let numbers = TOLD.map(|name| ARITHMETICS.iter().position(|other| *other == name));
+    let limits = overview::of(&survey, &numbers.into_iter().flatten().collect::<Vec<_>>());
+    Ok(Section {
+        id: "limits".into(),
+        title: "Where methods fail".into(),
+        body: html! {
+            p {
+                "Each form of a method in every arithmetic, from where it is easy to where it fails, against truth of "
+                "512 bits. A dot holds, a symbol on a faint ground degrades, one on a strong ground breaks; the symbol "
+                "says why. A bar ends what is admitted: what octray renders without telling that the arithmetic is too "
+                "coarse."
+            }
+            @for map in &maps { (map) }
+            h3 { "Limits" }
+            pre { (limits) }
+        },
+        commands: vec![
+            "octray stability -o maps".into(),
+            format!("octray stability --limits {}", TOLD.join(",")),
+        ],
+    })
+}
+
+/// The map of a method under its bounds; of polygons also every query around a star.
+fn of_method(outcome: &Outcome) -> Result<Markup, Error> {
+    let about = &outcome.about;
+    let says = format!("{}: {}", about.title, about.axis);
+    let (holds, degrades) = table::bounds(about);
+    let queries = match about.name == Polygon::ABOUT.name {
+        true => Some(page::image(&canvas::picture(&Queries::new())?, QUERIES)?),
+        false => None,
+    };
+    Ok(html! {
+        (page::chart(&canvas::svg(&Map(outcome))?, &says))
+        p.bounds { "Holds: " (holds) ". Degrades: " (degrades) ". Breaks: beyond that." }
+        @if let Some(queries) = queries {
+            figure.chart { (queries) }
+        }
+    })
+}

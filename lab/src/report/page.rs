@@ -1,0 +1,154 @@
+//! The page: HTML that needs neither network nor script, in the reader's own light or dark.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use octray_render::error::Error;
+use octray_render::picture::Picture;
+
+/// How it looks.
+const STYLE: &str = include_str!("style.css");
+
+/// A part of the page.
+#[derive(Clone, Debug)]
+pub(super) struct Section {
+    /// Its name in addresses within the page.
+    pub(super) id: String,
+    /// Its heading.
+    pub(super) title: String,
+    /// What it shows.
+    pub(super) body: Markup,
+    /// The commands that print it again.
+    pub(super) commands: Vec<String>,
+}
+
+/// The whole page.
+pub(super) fn of(sections: &[Section]) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { "octray: what speed costs in accuracy" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { "What speed costs in accuracy" }
+                    p {
+                        "What rendering takes in every arithmetic, where each method fails, and what small targets "
+                        "need. Made by octray " (env!("CARGO_PKG_VERSION")) "; under each part stands the command "
+                        "that prints it again."
+                    }
+                    nav {
+                        @for section in sections {
+                            a href={ "#" (section.id) } { (section.title) }
+                        }
+                    }
+                }
+                main {
+                    @for section in sections {
+                        section id=(section.id) {
+                            h2 { (section.title) }
+                            (section.body)
+                            (commands(&section.commands))
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Commands as they are typed.
+pub(super) fn commands(commands: &[String]) -> Markup {
+    html! {
+        @if !commands.is_empty() {
+            pre.command { code { (commands.join("\n")) } }
+        }
+    }
+}
+
+/// A picture within the page, as PNG.
+///
+/// # Errors
+/// If it cannot be encoded.
+pub(super) fn image(picture: &Picture, says: &str) -> Result<Markup, Error> {
+    let png = (picture.png()).map_err(|cause| Error::Failed(format!("no PNG: {cause}")))?;
+    let data = BASE64_STANDARD.encode(png);
+    let (width, height) = picture.size();
+    Ok(html! {
+        img src={ "data:image/png;base64," (data) } width=(width) height=(height) alt=(says);
+    })
+}
+
+/// A chart that has been drawn as SVG.
+pub(super) fn chart(svg: &str, says: &str) -> Markup {
+    html! {
+        figure.chart role="img" aria-label=(says) { (PreEscaped(svg)) }
+    }
+}
+
+/// A table whose first columns hold words, to the left, and the others numbers, to the right.
+pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup {
+    let class = |column: usize| (column >= words).then_some("number");
+    html! {
+        div.wide {
+            table {
+                thead { tr { @for (i, name) in head.iter().enumerate() { th scope="col" class=[class(i)] { (name) } } } }
+                tbody {
+                    @for row in rows {
+                        tr { @for (i, cell) in row.iter().enumerate() { td class=[class(i)] { (cell) } } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A path as a shell reads it.
+pub(super) fn quoted(path: &std::path::Path) -> String {
+    crate::chart::point::quoted(&path.to_string_lossy())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page(title: &str) -> String {
+        let section = Section {
+            id: "a".into(),
+            title: title.into(),
+            body: html! { p { "b" } },
+            commands: vec!["octray x".into(), "octray y".into()],
+        };
+        of(&[section]).into_string()
+    }
+
+    #[test]
+    fn names_are_text_not_markup() {
+        let page = page("<b>");
+        assert!(page.contains("<h2>&lt;b&gt;</h2>"), "{page}");
+        assert!(!page.contains("<b>"));
+    }
+
+    #[test]
+    fn commands_stand_below_and_sections_are_found() {
+        let page = page("a");
+        assert!(page.contains("octray x\noctray y"), "{page}");
+        assert!(page.contains("<a href=\"#a\">a</a>"), "{page}");
+    }
+
+    #[test]
+    fn a_picture_is_in_the_page() {
+        let picture = Picture::black(2, 3, false).unwrap();
+        let image = image(&picture, "\"black\"").unwrap().into_string();
+        assert!(image.starts_with("<img src=\"data:image/png;base64,iVBOR"));
+        assert!(
+            image.ends_with("width=\"2\" height=\"3\" alt=\"&quot;black&quot;\">"),
+            "{image}"
+        );
+    }
+}

@@ -1,0 +1,130 @@
+//! Whether the figures' rays are as many as in the thesis's table II.
+
+use super::number::Number;
+use super::runs::Runs;
+use super::subject::{FIGURES, Trial};
+use super::table::Quantity;
+use super::thesis::{Datum, Thesis};
+use octray_render::counts::thousands;
+use octray_render::error::Error;
+use octray_render::stats::Rays;
+
+/// Reflected rays, which have to agree within 5 %.
+pub const REFLECTED: Quantity = Quantity::rays("reflected rays", 0.05);
+
+/// Light tests that found something in between, "shadows" in the thesis, which have to agree within 15 %.
+pub const BLOCKED: Quantity = Quantity::rays("blocked light tests", 0.15);
+
+/// For each count of the thesis that ours does not agree with, with as many lights as it has: which set of
+/// the scene's first lights comes nearest. One sentence if no count is at hand.
+///
+/// # Errors
+/// As [`Runs::tally`].
+pub fn notes(runs: &Runs<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
+    let of_rays = |datum: &&Datum| !datum.is_ratio() && count_of(datum).is_some();
+    let data: Vec<&Datum> = thesis.of(Number::Two).filter(of_rays).collect();
+    if data.is_empty() {
+        return Ok(vec![
+            "The thesis's counts of rays are not at hand. So whether ours agree (reflected rays within 5 %, blocked \
+             light tests within 15 %) is not known."
+                .into(),
+        ]);
+    }
+    let notes = data.into_iter().map(|datum| nearest(runs, datum));
+    Ok(notes
+        .collect::<Result<Vec<_>, _>>()?
+        .into_iter()
+        .flatten()
+        .collect())
+}
+
+/// How rays of a kind are counted.
+type Count = fn(&Rays) -> u64;
+
+/// How a quantity is counted, and by what share it may differ.
+fn count_of(datum: &Datum) -> Option<(Count, f64)> {
+    let counts: [(Quantity, Count); 2] = [
+        (REFLECTED, |rays| rays.reflected),
+        (BLOCKED, |rays| rays.blocked),
+    ];
+    let named = |(quantity, _): &(Quantity, Count)| quantity.thesis == datum.quantity;
+    let (quantity, count) = counts.into_iter().find(named)?;
+    Some((count, quantity.within?))
+}
+
+/// What comes nearest to a count of the thesis; `None` if ours agrees, or there is none of ours.
+fn nearest(runs: &Runs<'_>, datum: &Datum) -> Result<Option<String>, Error> {
+    let subject = FIGURES
+        .into_iter()
+        .find(|subject| subject.name == datum.scene);
+    let (Some(subject), Some((count, within)), Ok(stated)) =
+        (subject, count_of(datum), datum.variant.parse::<usize>())
+    else {
+        return Ok(None);
+    };
+    let all = subject.scene()?.lights.len();
+    let with = |lights| {
+        let trial = Trial::of(subject).with_lights(lights, all);
+        Ok::<_, Error>((lights, count(&runs.tally(trial)?.rays)))
+    };
+    let off = |ours: u64| (ours as f64 / datum.value - 1.0).abs();
+    if (1..=all).contains(&stated) && off(with(stated)?.1) <= within {
+        return Ok(None);
+    }
+    let sets = (1..=all).map(with).collect::<Result<Vec<_>, _>>()?;
+    let best = sets
+        .into_iter()
+        .min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
+    Ok(best.map(|(lights, ours)| {
+        format!(
+            "{}, {}: the thesis has {} with {stated} lights. Of ours, the first {lights} come nearest, with {} \
+             ({:+.1} %).",
+            datum.scene,
+            datum.quantity,
+            thousands(datum.value.round() as u64),
+            thousands(ours),
+            100.0 * (ours as f64 / datum.value - 1.0),
+        )
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::thesis::tests::thesis;
+    use super::*;
+    use octray_render::interrupt::Interrupt;
+
+    #[test]
+    fn the_nearest_light_set_is_found_where_the_stated_one_is_not_near() {
+        let interrupt = Interrupt::new();
+        let runs = Runs::new(Some((64, 64)), false, &interrupt);
+        let blocked = |lights| {
+            let trial = Trial {
+                lights: Some(lights),
+                ..Trial::of(FIGURES[1])
+            };
+            runs.tally(trial).unwrap().rays.blocked
+        };
+        let (three, ten) = (blocked(3), blocked(10));
+        let lines = format!(
+            "II,figure-20,10,blocked light tests,,{ten},,\n\
+             II,figure-20,9,blocked light tests,,{three},,\n\
+             II,figure-20,9,time,,1,minutes,"
+        );
+        let notes = notes(&runs, &thesis(&lines).unwrap()).unwrap();
+        let three = thousands(three);
+        let expected = format!(
+            "figure-20, blocked light tests: the thesis has {three} with 9 lights. Of ours, the first 3 come \
+             nearest, with {three} (+0.0 %)."
+        );
+        assert_eq!(notes, [expected]);
+    }
+
+    #[test]
+    fn that_nothing_is_known_is_told() {
+        let interrupt = Interrupt::new();
+        let runs = Runs::new(Some((8, 8)), false, &interrupt);
+        let notes = notes(&runs, &Thesis::default()).unwrap();
+        assert!(notes[0].contains("is not known"), "{notes:?}");
+    }
+}

@@ -1,0 +1,58 @@
+//! Records of `octray measure --csv`, and the newest one that comes with octray.
+
+use octray_prepare::{Arith, Format};
+use serde::Deserialize;
+
+/// The newest record.
+pub const NEWEST: &str = include_str!(env!("OCTRAY_RECORD"));
+/// Its path in the sources.
+pub const NAME: &str = env!("OCTRAY_RECORD_NAME");
+/// Its chart: SVG.
+pub const CHART: &str = include_str!(env!("OCTRAY_RECORD_CHART"));
+
+/// What a picture costs on a board: the columns that are shown. Where there are no numbers, the run has failed.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Row {
+    /// The scene's name.
+    pub scene: String,
+    /// The board's name.
+    pub board: String,
+    /// The arithmetic that was asked for.
+    pub arith: Arith,
+    /// The number format that was used; `None` if there are no numbers.
+    #[serde(default)]
+    pub format: Option<Format>,
+    /// `ok`, or why there are no numbers.
+    #[serde(default)]
+    pub outcome: String,
+    /// Instructions per pixel.
+    pub per_pixel: Option<f64>,
+    /// Bytes of code and constants.
+    #[serde(default)]
+    pub flash: Option<u64>,
+    /// Bytes of variables.
+    #[serde(default)]
+    pub ram: Option<u64>,
+    /// Bytes of the deepest stack.
+    #[serde(default)]
+    pub stack: Option<u64>,
+    /// Distance from the picture in `f64` in dB; `None` if they are equal, too.
+    #[serde(default)]
+    pub psnr: Option<f64>,
+    /// The commit that was measured.
+    pub commit: String,
+    /// The compiler.
+    pub toolchain: String,
+    /// The emulator.
+    pub emulator: String,
+}
+
+/// The rows of a record.
+///
+/// # Errors
+/// If it is none.
+pub fn read(text: &str) -> Result<Vec<Row>, csv::Error> {
+    csv::Reader::from_reader(text.as_bytes())
+        .deserialize()
+        .collect()
+}

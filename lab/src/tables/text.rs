@@ -1,0 +1,168 @@
+//! A table, to read.
+
+use super::table::{Line, Quantity, Table, Value};
+use comfy_table::{CellAlignment, presets};
+use octray_render::counts::thousands;
+use std::fmt::Write;
+
+/// What is told of what is not known.
+const UNKNOWN: &str = "not at hand";
+
+/// The table under its title, and below it what is to be said of it.
+pub fn of(table: &Table) -> String {
+    let title = format!("Table {}: {}", table.table.name(), table.title);
+    let mut text = format!("{title}\n\n{}\n\n", grid(table));
+    for note in notes(table) {
+        let _ = writeln!(text, "- {note}");
+    }
+    text
+}
+
+/// What is to be said of a table.
+pub fn notes(table: &Table) -> Vec<String> {
+    (table.also.iter())
+        .map(|datum| format!("The thesis also has, for no line above: {datum}."))
+        .chain(table.notes.iter().cloned())
+        .collect()
+}
+
+/// The lines and columns alone.
+pub fn grid(table: &Table) -> String {
+    let mut columns = vec![
+        Column {
+            heading: "scene".into(),
+            cell: Box::new(|line| line.scene.clone()),
+        },
+        Column {
+            heading: table.variants.into(),
+            cell: Box::new(|line| line.variant.clone()),
+        },
+    ];
+    let words = columns.len();
+    for (i, quantity) in table.quantities.iter().enumerate() {
+        columns.extend(columns_of(table, i, quantity));
+    }
+    if (table.lines.iter()).all(|line| line.values.iter().all(|value| value.thesis.is_empty())) {
+        columns.push(Column {
+            heading: "thesis".into(),
+            cell: Box::new(|_| UNKNOWN.into()),
+        });
+    }
+    let mut drawn = comfy_table::Table::new();
+    drawn
+        .load_style(presets::ASCII_MARKDOWN)
+        .set_header(columns.iter().map(|column| &column.heading));
+    for line in &table.lines {
+        drawn.add_row(columns.iter().map(|column| (column.cell)(line)));
+    }
+    for column in drawn.column_iter_mut().skip(words) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    drawn.to_string()
+}
+
+struct Column<'a> {
+    heading: String,
+    cell: Box<dyn Fn(&Line) -> String + 'a>,
+}
+
+/// Our value, its ratio, and what the thesis has.
+fn columns_of<'a>(table: &'a Table, i: usize, quantity: &'a Quantity) -> Vec<Column<'a>> {
+    let heading = match quantity.unit {
+        "" => quantity.name.into(),
+        unit => format!("{}, {unit}", quantity.name),
+    };
+    let mut columns = vec![Column {
+        heading,
+        cell: Box::new(move |line| number(line.values[i].ours, quantity.decimals)),
+    }];
+    if quantity.ratio {
+        columns.push(Column {
+            heading: "ratio".into(),
+            cell: Box::new(move |line| line.values[i].ratio.map_or(String::new(), ratio)),
+        });
+    }
+    let machines = table
+        .lines
+        .first()
+        .map_or(&[][..], |line| &line.values[i].thesis);
+    for (m, machine) in machines.iter().enumerate() {
+        let thesis = match &*machine.machine {
+            "" => "thesis".into(),
+            machine => format!("thesis, {machine}"),
+        };
+        let unknown = || UNKNOWN.to_owned();
+        columns.push(Column {
+            heading: thesis.clone(),
+            cell: Box::new(move |line| {
+                let given = &line.values[i].thesis[m];
+                match given.value {
+                    Some(value) if given.unit.is_empty() => plain(value),
+                    Some(value) => format!("{} {}", plain(value), given.unit),
+                    None => unknown(),
+                }
+            }),
+        });
+        if quantity.within.is_some() {
+            columns.push(Column {
+                heading: "ours / thesis".into(),
+                cell: Box::new(move |line| {
+                    let given = &line.values[i].thesis[m];
+                    given.ours_over_thesis.map_or_else(unknown, ratio)
+                }),
+            });
+        }
+        if quantity.ratio {
+            columns.push(Column {
+                heading: "thesis, ratio".into(),
+                cell: Box::new(move |line| {
+                    let Value {
+                        ratio: ours,
+                        thesis,
+                        ..
+                    } = &line.values[i];
+                    match (ours, thesis[m].ratio) {
+                        (None, None) => String::new(),
+                        (_, given) => given.map_or_else(unknown, ratio),
+                    }
+                }),
+            });
+        }
+    }
+    columns
+}
+
+fn ratio(ratio: f64) -> String {
+    format!("{ratio:.2}")
+}
+
+/// The thesis's figure with the decimals it has.
+fn plain(value: f64) -> String {
+    match value.fract() == 0.0 && (0.0..1e15).contains(&value) {
+        true => thousands(value as u64),
+        false => value.to_string(),
+    }
+}
+
+/// A number that is not negative, with commas and so many decimals.
+fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
+    whole
+        .parse()
+        .map_or(text.clone(), |whole| thousands(whole) + rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_commas_and_decimals() {
+        assert_eq!(number(1234.56, 1), "1,234.6");
+        assert_eq!(number(1234.56, 0), "1,235");
+        assert_eq!(number(f64::NAN, 1), "NaN");
+        assert_eq!(plain(2.5), "2.5");
+        assert_eq!(plain(12000.0), "12,000");
+    }
+}

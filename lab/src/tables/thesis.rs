@@ -1,0 +1,229 @@
+//! What the thesis has: its figures as far as they are known, from a file of comma-separated values.
+
+use super::number::Number;
+use octray_render::error::Error;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::Path;
+
+/// The figures that come with octray; its head says what the columns hold.
+const KNOWN: &str = include_str!("thesis.csv");
+
+/// The unit of a value that is a ratio to the first variant.
+const RATIO: &str = "ratio";
+
+/// A figure of the thesis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Datum {
+    /// In which table.
+    pub table: Number,
+    /// Of which scene; empty if not known.
+    pub scene: String,
+    /// Of which variant of it.
+    pub variant: String,
+    /// What it counts.
+    pub quantity: String,
+    /// Where it was measured; empty if that does not matter.
+    pub machine: String,
+    /// The figure, finite.
+    pub value: f64,
+    /// Its unit; empty for a mere count.
+    pub unit: String,
+    /// On which page; not known if `None`.
+    pub page: Option<u32>,
+}
+
+/// Whose figure is sought.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// The table.
+    pub table: Number,
+    /// The scene.
+    pub scene: &'a str,
+    /// The variant.
+    pub variant: &'a str,
+    /// The quantity.
+    pub quantity: &'a str,
+}
+
+/// All figures of the thesis that are known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Thesis(Vec<Datum>);
+
+impl Thesis {
+    /// Those of a file, or without one those that come with octray.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the file cannot be read, [`Error::Failed`] if it is not of the form.
+    pub fn read(path: Option<&Path>) -> Result<Self, Error> {
+        let Some(path) = path else {
+            return Self::parse(KNOWN, "thesis.csv");
+        };
+        let text = fs::read_to_string(path).map_err(|source| Error::read(path, source))?;
+        Self::parse(&text, &path.display().to_string())
+    }
+
+    fn parse(text: &str, name: &str) -> Result<Self, Error> {
+        let failed = |why: &dyn std::fmt::Display| Error::Failed(format!("{name}: {why}"));
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let mut data: Vec<Datum> = Vec::new();
+        for datum in reader.deserialize() {
+            let datum: Datum = datum.map_err(|error| failed(&error))?;
+            if !datum.value.is_finite() {
+                return Err(failed(&format!("{} is not a number", datum.value)));
+            }
+            let twice = data.iter().any(|other| {
+                !datum.scene.is_empty()
+                    && other.is_at(datum.place())
+                    && other.machine == datum.machine
+                    && other.is_ratio() == datum.is_ratio()
+            });
+            if twice {
+                return Err(failed(&format!("{datum} is there twice")));
+            }
+            data.push(datum);
+        }
+        Ok(Self(data))
+    }
+
+    /// The figures of a table.
+    pub fn of(&self, table: Number) -> impl Iterator<Item = &Datum> {
+        self.0.iter().filter(move |datum| datum.table == table)
+    }
+
+    /// A figure that is no ratio.
+    pub fn value(&self, place: Place<'_>, machine: &str) -> Option<&Datum> {
+        self.at(place, machine).find(|datum| !datum.is_ratio())
+    }
+
+    /// A figure that is a ratio to the first variant.
+    pub fn ratio(&self, place: Place<'_>, machine: &str) -> Option<&Datum> {
+        self.at(place, machine).find(|datum| datum.is_ratio())
+    }
+
+    fn at(&self, place: Place<'_>, machine: &str) -> impl Iterator<Item = &Datum> {
+        (self.0.iter()).filter(move |datum| datum.is_at(place) && datum.machine == machine)
+    }
+}
+
+impl Datum {
+    /// Whose it is.
+    pub fn place(&self) -> Place<'_> {
+        Place {
+            table: self.table,
+            scene: &self.scene,
+            variant: &self.variant,
+            quantity: &self.quantity,
+        }
+    }
+
+    /// Whether it is somebody's.
+    pub fn is_at(&self, place: Place<'_>) -> bool {
+        self.table == place.table
+            && self.scene == place.scene
+            && self.variant == place.variant
+            && self.quantity == place.quantity
+    }
+
+    /// Whether it is a ratio to the first variant.
+    pub fn is_ratio(&self) -> bool {
+        self.unit == RATIO
+    }
+}
+
+/// `time, without: ratio 2.5, Sun 3/110`.
+impl std::fmt::Display for Datum {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            scene,
+            variant,
+            quantity,
+            machine,
+            value,
+            unit,
+            page,
+            ..
+        } = self;
+        match &**scene {
+            "" => write!(f, "{quantity}, {variant}: ")?,
+            scene => write!(f, "{scene}, {quantity}, {variant}: ")?,
+        }
+        match &**unit {
+            "" => write!(f, "{value}")?,
+            RATIO => write!(f, "ratio {value}")?,
+            unit => write!(f, "{value} {unit}")?,
+        }
+        if !machine.is_empty() {
+            write!(f, ", {machine}")?;
+        }
+        match page {
+            Some(page) => write!(f, ", page {page}"),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// The thesis with these lines.
+    pub(in super::super) fn thesis(lines: &str) -> Result<Thesis, String> {
+        let head = "table,scene,variant,quantity,machine,value,unit,page\n";
+        Thesis::parse(&format!("{head}{lines}"), "a.csv").map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_comes_with_octray_is_read_and_nothing_else_is_claimed() {
+        let known = Thesis::read(None).unwrap();
+        let texts: Vec<String> = known.of(Number::Three).map(Datum::to_string).collect();
+        let expected =
+            ["2.5", "2.58"].map(|ratio| format!("time, without: ratio {ratio}, Sun 3/110"));
+        assert_eq!(texts, expected);
+        assert_eq!(known.of(Number::One).count(), 0);
+    }
+
+    #[test]
+    fn values_and_ratios_are_found_where_they_belong() {
+        let thesis = thesis(
+            "II, figure-19, 2 lights, time, Balance 8000, 61, minutes, 70\n\
+             # nothing\n\
+             II,figure-19,2 lights,time,Sun 3/110,1.5,ratio,",
+        )
+        .unwrap();
+        let place = Place {
+            table: Number::Two,
+            scene: "figure-19",
+            variant: "2 lights",
+            quantity: "time",
+        };
+        let found = thesis.value(place, "Balance 8000").unwrap();
+        assert_eq!((found.value, found.page), (61.0, Some(70)));
+        assert!(thesis.ratio(place, "Balance 8000").is_none());
+        assert!(thesis.value(place, "Sun 3/110").is_none());
+        assert_eq!(thesis.ratio(place, "Sun 3/110").unwrap().value, 1.5);
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_place() {
+        for (lines, expected) in [
+            (
+                "X,figure-19,a,time,,1,,",
+                "a.csv: CSV deserialize error: record 1 (line: 2",
+            ),
+            ("II,figure-19,a,time,,many,,", "invalid float literal"),
+            ("II,figure-19,a,time,,inf,,", "inf is not a number"),
+            ("II,figure-19,a,time,,1", "found record with 6 fields"),
+            (
+                "II,figure-19,a,time,,1,,\nII,figure-19,a,time,,2,,",
+                "figure-19, time, a: 2 is there twice",
+            ),
+        ] {
+            let told = thesis(lines).unwrap_err();
+            assert!(told.contains(expected), "{told}");
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! Surfaces close to each other, and in the same place.
+
+use crate::method::{About, Form, SHIPPED, Sweep};
+use crate::number::{self, Number, counted};
+use crate::random::{self, Random};
+use crate::setting::Setting;
+use crate::tally::{Bounds, Tally, bound};
+use octray_core::accel::{Accelerator, BruteForce};
+use octray_core::object::ObjectRef;
+use octray_core::ray::Ray;
+use octray_prepare::quantise::Prepared;
+use octray_scenes::model::Shape;
+
+/// Two spheres or two squares, the one 10⁻¹ to 10⁻⁷ of their size above the other; and in the same
+/// place, where the first in the file counts. A hit is the right one.
+#[derive(Debug)]
+pub struct Coincident;
+
+impl Sweep for Coincident {
+    const ABOUT: About = About {
+        name: "coincident",
+        title: "Coincident surfaces",
+        axis: "size / gap between surfaces; last: none",
+        unit: "",
+        values: &[
+            1e1,
+            2e1,
+            5e1,
+            1e2,
+            2e2,
+            5e2,
+            1e3,
+            2e3,
+            5e3,
+            1e4,
+            2e4,
+            5e4,
+            1e5,
+            2e5,
+            5e5,
+            1e6,
+            1e7,
+            f64::INFINITY,
+        ],
+        home: 1e1,
+        forms: &[
+            Form {
+                name: SHIPPED,
+                label: "nearest t; of equal ones the first in the file",
+            },
+            Form {
+                name: "last",
+                label: "nearest t; of equal ones the last tested",
+            },
+        ],
+        bounds: Bounds {
+            wrong: Some(bound(0.0, 0.05)),
+            ..Bounds::NONE
+        },
+    };
+
+    fn setting(value: f64) -> Setting {
+        let whole = Setting::sphere(1.0, 3.0);
+        if value.is_infinite() {
+            return whole;
+        }
+        // What is as small as the gap has to be resolved.
+        whole.and(Shape::Sphere {
+            centre: [0.0; 3],
+            radius: 1.0 / value,
+        })
+    }
+
+    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+        let mut tallies = vec![Tally::default(); 2];
+        let mut random = Random::new(15);
+        for case in 0..48 {
+            // The upper one is the first in the file, or the second.
+            let upper_first = case % 2 == 0;
+            let gap = 1.0 / value;
+            let heights = if upper_first { [gap, 0.0] } else { [0.0, gap] };
+            let right = u32::from(!upper_first && gap > 0.0);
+            let normal = random.direction();
+            let eye = random::times(normal, 3.0);
+            let pair = if case % 4 < 2 {
+                spheres(heights, eye)
+            } else {
+                squares(normal, random.across(normal), heights, eye)
+            };
+            let Some(prepared) = pair.prepare::<S>() else {
+                continue;
+            };
+            let aside = random::times(random.across(normal), random.between(0.0, 0.6));
+            let towards = random::add(random::times(normal, -2.0), aside);
+            let direction = number::direction::<S>(towards);
+            let ray = number::ray(prepared.placement.point(eye), direction);
+            let found = [
+                counted(|| shipped(&prepared, &ray)),
+                counted(|| last(&prepared, &ray)),
+            ];
+            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
+                tally.saturations += saturations;
+                tally.decide(true, found == Some(right));
+            }
+        }
+        tallies
+    }
+}
+
+fn spheres(heights: [f64; 2], eye: [f64; 3]) -> Setting {
+    let [first, second] = heights.map(|height| Shape::Sphere {
+        centre: [0.0; 3],
+        radius: 1.0 + height,
+    });
+    Setting::of(first, eye).and(second)
+}
+
+fn squares(normal: [f64; 3], across: [f64; 3], heights: [f64; 2], eye: [f64; 3]) -> Setting {
+    let third = random::cross(normal, across);
+    let square = |height: f64| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| {
+            let flat = random::add(random::times(across, x), random::times(third, y));
+            random::add(flat, random::times(normal, 1.0 + height))
+        })
+    };
+    // Something to begin with, out of sight.
+    let centre = random::times(normal, -1.0);
+    Setting::of(
+        Shape::Sphere {
+            centre,
+            radius: 0.1,
+        },
+        eye,
+    )
+    .and_polygon(&square(heights[0]))
+    .and_polygon(&square(heights[1]))
+}
+
+/// What the ray meets first: 0 or 1, as they come in the file.
+fn shipped<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
+    let scene = prepared.scene.scene();
+    let all: Vec<ObjectRef> = scene.shapes.refs().collect();
+    let hit = BruteForce(&all).nearest(&scene, ray, &mut (), &mut ())?;
+    Some(hit.object.index() as u32)
+}
+
+fn last<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
+    let (shapes, mut limit, mut found) = (prepared.scene.shapes(), prepared.scene.diameter, None);
+    for object in shapes.refs() {
+        if let Some(t) = shapes.hit(object, ray, limit, &mut ()) {
+            (limit, found) = (t, Some(object.index() as u32));
+        }
+    }
+    found
+}

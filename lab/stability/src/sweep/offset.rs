@@ -1,0 +1,187 @@
+//! Rays that leave a surface: whether they meet it again (shadow acne), and whether they miss one
+//! close by (light leaks).
+
+use crate::method::{About, Form, SHIPPED, Sweep};
+use crate::mock_accelerator;
+use crate::number::{self, Number, counted};
+use crate::random::{self, Random};
+use crate::setting::Setting;
+use crate::tally::{Bounds, Tally, bound};
+use octray_core::accel::Hit;
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::ray::Ray;
+use octray_core::vec3::Vec3;
+use octray_prepare::quantise::Prepared;
+use octray_scenes::model::Shape;
+
+/// Scenes of 10⁻⁴ to 10⁵ units. Rays leave a sphere, or a square, and should meet another that is
+/// a hundredth of its size away; a hit on what they leave is a false hit.
+#[derive(Debug)]
+pub struct Offset;
+
+/// From one surface to the next, in sizes of the scene.
+const GAP: f64 = 0.01;
+/// The sphere that is left, and the next.
+const RADII: [f64; 2] = [1.0, 1.0 + GAP];
+/// Half the side and the height of the square that is left, and of the next.
+const SQUARES: [[f64; 2]; 2] = [[1.0, 2.0], [2.0, 2.0 + GAP]];
+/// What a ray has to go at least, in scene units.
+const EPSILON: f64 = 1e-4;
+
+impl Sweep for Offset {
+    const ABOUT: About = About {
+        name: "offset",
+        title: "Leaving a surface",
+        axis: "size of the scene in its own units",
+        unit: "",
+        values: &[
+            1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0,
+            10.0, 20.0, 50.0, 1e2, 2e2, 5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5,
+        ],
+        home: 1.0,
+        forms: &[
+            Form {
+                name: SHIPPED,
+                label: "scaled; starts off the surface by a bound on its error",
+            },
+            Form {
+                name: "epsilon",
+                label: "not scaled; hits count beyond t = 0.0001",
+            },
+        ],
+        bounds: Bounds {
+            wrong: Some(bound(0.0, 0.05)),
+            ..Bounds::NONE
+        },
+    };
+
+    fn setting(value: f64) -> Setting {
+        let centre = [0.0; 3];
+        // What is as small as the gap has to be resolved.
+        surfaces(value).and(Shape::Sphere {
+            centre,
+            radius: GAP * value,
+        })
+    }
+
+    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+        let mut tallies = vec![Tally::default(); 2];
+        let mut random = Random::new(14);
+        let Some(prepared) = surfaces(value).prepare::<S>() else {
+            return tallies;
+        };
+        for case in 0..96 {
+            let kind = [ObjectKind::Sphere, ObjectKind::Polygon][case % 2];
+            let (eye, aim, outward) = incidence(kind, &mut random);
+            let towards = number::direction::<S>(random::add(aim, random::times(eye, -1.0)));
+            // Away from the surface, at an angle of 3 to 90 degrees against it.
+            let slant = random.between(0.05, 1.0);
+            let across = random::times(random.across(outward), 1.0 - slant);
+            let away = number::direction::<S>(random::add(across, random::times(outward, slant)));
+            let eye = random::times(eye, value);
+            let found = [
+                counted(|| shipped(&prepared, kind, eye, [towards, away])),
+                counted(|| epsilon(kind, value, eye, [towards, away])),
+            ];
+            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
+                tally.saturations += saturations;
+                let [itself, next] = found.unwrap_or([true, false]);
+                tally.decide(false, itself);
+                tally.decide(true, next);
+            }
+        }
+        tallies
+    }
+}
+
+/// A sphere and a square, and after each, the one that a ray leaving it should meet.
+fn surfaces(size: f64) -> Setting {
+    let [inner, outer] = RADII.map(|radius| Shape::Sphere {
+        centre: [0.0; 3],
+        radius: radius * size,
+    });
+    let square = |[half, height]: [f64; 2]| {
+        [[-half, -half], [half, -half], [half, half], [-half, half]]
+            .map(|[x, y]| [x * size, y * size, height * size])
+    };
+    Setting::of(inner, [0.0, 0.0, 4.0 * size])
+        .and(outer)
+        .and_polygon(&square(SQUARES[0]))
+        .and_polygon(&square(SQUARES[1]))
+}
+
+/// An eye, a point of the sphere or the square that it looks at, and the normal there.
+fn incidence(kind: ObjectKind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64; 3]) {
+    if kind == ObjectKind::Sphere {
+        let outward = random.direction();
+        let beside = random::times(random.across(outward), random.between(0.0, 2.0));
+        let eye = random::add(random::times(outward, random.between(2.0, 3.0)), beside);
+        return (eye, random::times(outward, RADII[0]), outward);
+    }
+    let mut place = |height| [random.between(-0.5, 0.5), random.between(-0.5, 0.5), height];
+    (place(3.9), place(SQUARES[0][1]), [0.0, 0.0, 1.0])
+}
+
+/// What a ray from the eye leaves behind it: whether it meets what it left, and whether it meets
+/// what is next. None if it does not come there in the first place.
+fn shipped<S: Number>(
+    prepared: &Prepared<S>,
+    kind: ObjectKind,
+    eye: [f64; 3],
+    [towards, away]: [Vec3<S>; 2],
+) -> Option<[bool; 2]> {
+    let shapes = prepared.scene.shapes();
+    let [from, next] = [0, 1].map(|i| ObjectRef::new(kind, i));
+    let ray = number::ray(prepared.placement.point(eye), towards);
+    let t = shapes.hit(from, &ray, prepared.scene.diameter, &mut ())?;
+    let hit = Hit { t, object: from };
+    let seen = mock_accelerator::leaving(shapes, mock_accelerator::mirror(), &ray, hit);
+    let leaving = Ray {
+        origin: seen.follow.first()?.origin,
+        direction: away,
+    };
+    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.diameter, &mut ());
+    Some([meets(from), meets(next)])
+}
+
+/// The same in scene units, where hits below a fixed distance do not count.
+fn epsilon<S: Number>(
+    kind: ObjectKind,
+    size: f64,
+    eye: [f64; 3],
+    [towards, away]: [Vec3<S>; 2],
+) -> Option<[bool; 2]> {
+    let number = |x: f64| S::from_f64(x * size);
+    let roots = |i: usize, ray: &Ray<S>| match kind {
+        ObjectKind::Sphere => sphere(number(RADII[i]), ray),
+        _ => square(SQUARES[i].map(number), ray),
+    };
+    let least = S::from_f64(EPSILON);
+    let met = |i, ray: &Ray<S>| roots(i, ray).into_iter().flatten().find(|t| *t > least);
+    let ray = number::ray(eye, towards);
+    let leaving = Ray {
+        origin: ray.at(met(0, &ray)?),
+        direction: away,
+    };
+    Some([0, 1].map(|i| met(i, &leaving).is_some()))
+}
+
+/// Where a line passes through a sphere around the origin.
+fn sphere<S: Number>(radius: S, ray: &Ray<S>) -> [Option<S>; 2] {
+    let middle = -ray.origin.dot(ray.direction);
+    let apart = ray.at(middle);
+    let discriminant = S::product(radius, radius) - apart.dot_wide(apart);
+    if discriminant < S::product(S::ZERO, S::ZERO) {
+        return [None; 2];
+    }
+    let half_chord = S::sqrt_wide(discriminant);
+    [Some(middle - half_chord), Some(middle + half_chord)]
+}
+
+/// Where it passes through a square across the z axis.
+fn square<S: Number>([half, height]: [S; 2], ray: &Ray<S>) -> [Option<S>; 2] {
+    let t = (height - ray.origin.z).quotient(ray.direction.z);
+    let point = ray.at(t);
+    let inside = point.x.abs() <= half && point.y.abs() <= half;
+    [inside.then_some(t), None]
+}

@@ -1,0 +1,270 @@
+//! Points in polygons: on and near vertices, edges and diagonals.
+
+use crate::exact::Exact;
+use crate::fixtures::{self, outline, polygon};
+use crate::method::{About, Form, SHIPPED, Sweep};
+use crate::number::{Number, counted, span, vector};
+use crate::random::Random;
+use crate::setting::Setting;
+use crate::tally::{Bounds, Tally, bound};
+use octray_core::object::ObjectKind;
+use octray_core::ray::Ray;
+
+/// Queries at 10⁻¹ to 10⁻⁹ of a polygon's size from its vertices, edges and diagonals, and from the
+/// lines on which the thesis's ray meets a vertex; and on them. A hit is a point inside.
+#[derive(Debug)]
+pub struct Polygon;
+
+impl Sweep for Polygon {
+    const ABOUT: About = About {
+        name: "polygon",
+        title: "Point in polygon",
+        axis: "size / distance from vertices, edges, diagonals; last: on them",
+        unit: "",
+        values: &[
+            1e1,
+            2e1,
+            5e1,
+            1e2,
+            2e2,
+            5e2,
+            1e3,
+            2e3,
+            5e3,
+            1e4,
+            1e5,
+            1e6,
+            1e7,
+            1e8,
+            1e9,
+            f64::INFINITY,
+        ],
+        home: 1e1,
+        forms: &[
+            Form {
+                name: SHIPPED,
+                label: "half-open edges",
+            },
+            Form {
+                name: "thesis",
+                label: "ray through the middle of an edge",
+            },
+        ],
+        bounds: Bounds {
+            wrong: Some(bound(0.0, 0.05)),
+            ..Bounds::NONE
+        },
+    };
+
+    fn setting(_: f64) -> Setting {
+        Setting::pixel(1.0)
+    }
+
+    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+        let mut tallies = vec![Tally::default(); 2];
+        for query in queries::<S>(value) {
+            let truth = inside(&query);
+            let found = [counted(|| shipped(query)), counted(|| thesis(query))];
+            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
+                tally.saturations += saturations;
+                tally.decide(truth, found);
+            }
+        }
+        tallies
+    }
+}
+
+/// How far [`square`] reaches, in units of 1/16 of the star's half width.
+pub const REACH: i32 = 17;
+
+/// A star of four points, in those units.
+pub const STAR: [[f64; 2]; 8] = [
+    [16.0, 0.0],
+    [4.0, 4.0],
+    [0.0, 16.0],
+    [-4.0, 4.0],
+    [-16.0, 0.0],
+    [-4.0, -4.0],
+    [0.0, -16.0],
+    [4.0, -4.0],
+];
+
+/// A point, to be asked whether it is in the star.
+#[derive(Clone, Copy, Debug)]
+pub struct Query<S> {
+    /// The star's corners.
+    pub corners: [[S; 2]; 8],
+    /// The point.
+    pub point: [S; 2],
+}
+
+/// What is found of one point.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer {
+    /// The point, in units of 1/16 of the star's half width.
+    pub point: [f64; 2],
+    /// Whether it is inside.
+    pub truth: bool,
+    /// What each form says.
+    pub found: [bool; 2],
+}
+
+/// Answers for a square of points around the star, half a unit apart: many lie on its edges, their
+/// diagonals, and the lines on which the thesis's ray meets a vertex.
+pub fn square<S: Number>() -> Vec<Answer> {
+    let unit = span::<S>() / 4.0 / 16.0;
+    let corners = STAR.map(|c| c.map(|x| S::from_f64(x * unit)));
+    let steps = || (-2 * REACH..=2 * REACH).map(|i| f64::from(i) / 2.0);
+    let answer = |point: [f64; 2]| {
+        let query = Query {
+            corners,
+            point: point.map(|x| S::from_f64(x * unit)),
+        };
+        Answer {
+            point,
+            truth: inside(&query),
+            found: [shipped(query), thesis(query)],
+        }
+    };
+    steps()
+        .flat_map(|y| steps().map(move |x| answer([x, y])))
+        .collect()
+}
+
+/// The queries at a distance of the star's half width over `value`.
+pub fn queries<S: Number>(value: f64) -> Vec<Query<S>> {
+    let mut random = Random::new(8);
+    let unit = span::<S>() / 4.0 / 16.0;
+    let corners = STAR.map(|c| c.map(|x| S::from_f64(x * unit)));
+    let middle = |a: [f64; 2], b: [f64; 2]| [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+    let next = |i: usize, by: usize| STAR[(i + by) % STAR.len()];
+    let sight = middle(STAR[0], STAR[1]);
+    let mut points = Vec::new();
+    for (i, &corner) in STAR.iter().enumerate() {
+        points.push(corner);
+        for share in [0.125, 0.5, 0.75] {
+            let along = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+            points.push(along(corner, next(i, 1)));
+            points.push(along(next(1, 2 * i), next(5, 2 * i)));
+            // Beyond the point, its ray meets the vertex.
+            points.push(along(
+                corner,
+                [2.0 * corner[0] - sight[0], 2.0 * corner[1] - sight[1]],
+            ));
+        }
+    }
+    let off = 16.0 / value;
+    let near = |p: [f64; 2]| {
+        let mut aside = || {
+            if random.between(0.0, 1.0) < 0.5 {
+                -off
+            } else {
+                off
+            }
+        };
+        let point = [p[0] + aside(), p[1] + aside()];
+        Query {
+            corners,
+            point: point.map(|x| S::from_f64(x * unit)),
+        }
+    };
+    points.into_iter().map(near).collect()
+}
+
+/// The rule of `docs/MODEL.md`, exactly: even–odd, an edge owns its lower end.
+pub fn inside<S: Number>(query: &Query<S>) -> bool {
+    let point = query.point.map(S::exact);
+    let corners = query.corners.map(|c| c.map(S::exact));
+    let mut odd = false;
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
+        if low[1] <= point[1] && point[1] < high[1] {
+            let rest = (&point[0] - &low[0]) * (&high[1] - &low[1])
+                - (&high[0] - &low[0]) * (&point[1] - &low[1]);
+            odd ^= rest < Exact::ZERO;
+        }
+    }
+    odd
+}
+
+/// What octray does: the polygon lies in z = 0, the ray comes straight down.
+pub fn shipped<S: Number>(query: Query<S>) -> bool {
+    let height = S::from_f64(span::<S>() / 8.0);
+    let [x, y] = query.point;
+    let ray = Ray {
+        origin: [x, y, height].into(),
+        direction: vector([0.0, 0.0, -1.0]),
+    };
+    let star = outline(vector([0.0, 0.0, 1.0]), S::ZERO, &query.corners);
+    fixtures::hit(
+        &polygon(&star, &query.corners),
+        ObjectKind::Polygon,
+        &ray,
+        S::MAX,
+    )
+    .is_some()
+}
+
+/// The thesis's rule: a ray from the point through the middle of the first edge; the point is
+/// inside if the ray meets an odd number of edges.
+pub fn thesis<S: Number>(query: Query<S>) -> bool {
+    let half = S::from_f64(0.5);
+    let [a, b] = [query.corners[0], query.corners[1]];
+    let minus = |a: [S; 2], b: [S; 2]| [a[0] - b[0], a[1] - b[1]];
+    let area = |a: [S; 2], b: [S; 2]| S::product(a[0], b[1]) - S::product(a[1], b[0]);
+    let none = S::product(S::ZERO, S::ZERO);
+    // Halves first: their sum fits.
+    let middle = [0, 1].map(|k| a[k] * half + b[k] * half);
+    let along = minus(middle, query.point);
+    let mut odd = false;
+    let next = query.corners.iter().cycle().skip(1);
+    for (a, b) in query.corners.iter().zip(next) {
+        let (edge, to_edge) = (minus(*b, *a), minus(*a, query.point));
+        let mut below = area(along, edge);
+        let mut on_ray = area(to_edge, edge);
+        let mut on_edge = area(to_edge, along);
+        if below < none {
+            (below, on_ray, on_edge) = (none - below, none - on_ray, none - on_edge);
+        }
+        // Both parameters are these over `below`: compared, not divided. Parallel edges are not met.
+        odd ^= none < below && none <= on_ray && none <= on_edge && on_edge <= below;
+    }
+    odd
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_belongs_to_the_side_its_edges_own() {
+        let corners = STAR;
+        let ask = |point| inside(&Query { corners, point });
+        assert!(ask([0.0, 0.0]) && !ask([8.0, 8.0]));
+        // Edges own their lower ends: the lowest corner is a crossing of two edges at once.
+        assert!(!ask([0.0, -16.0]) && !ask([0.0, 16.0]));
+        assert!(ask([-16.0, 0.0]) != ask([16.0, 0.0]));
+    }
+
+    #[test]
+    fn on_a_square_of_points_only_the_thesis_errs() {
+        let answers = square::<f32>();
+        let wrong = |form: usize, found: bool| {
+            let wrong = |a: &&Answer| a.found[form] != a.truth && a.found[form] == found;
+            answers.iter().filter(wrong).count()
+        };
+        assert_eq!(answers.len(), 69 * 69);
+        assert_eq!([wrong(0, true), wrong(0, false)], [0, 0]);
+        assert!(wrong(1, true) > 0 && wrong(1, false) > 0);
+    }
+
+    #[test]
+    fn far_from_everything_all_forms_agree() {
+        let point = [1.0 / 3.0, 0.7];
+        let query = Query {
+            corners: STAR,
+            point,
+        };
+        assert!(inside(&query) && shipped(query) && thesis(query));
+    }
+}

@@ -1,0 +1,242 @@
+//! Baking: a scene, its tree and its picture as Rust source of constant tables, to be compiled
+//! into a program that has neither files nor an allocator, and left in flash.
+//!
+//! Numbers are written as the bit patterns of the format, so nothing is rounded on the way: the
+//! baked scene gives the same picture, byte for byte, as the scene it was baked from.
+//!
+//! The source names `octray_core` and no other crate. It declares
+//!
+//! | name | what |
+//! | --- | --- |
+//! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
+//! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
+//! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
+//! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
+//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
+//! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
+//! | `NAME`, `ARITH` | the scene and the format, to be told |
+
+mod source;
+
+use crate::dispatch::InFormat;
+use crate::format::Format;
+use crate::literal::Literal;
+use crate::prepare::Prepare;
+use crate::quantise::{Overflow, Prepared};
+use crate::settings::{RenderSettings, TreeKind};
+use crate::tree::{Growth, every_object};
+use octray_core::features::{self, FeatureSet};
+use octray_core::object::ObjectKind;
+use octray_core::scalar::Scalar;
+use octray_core::scene::Surface;
+use octray_core::vec3::Vec3;
+use octray_scenes::model::Scene;
+use thiserror::Error;
+
+/// What is baked beside the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BakeOptions<'a> {
+    /// The scene's name, to be printed by the program.
+    pub name: &'a str,
+    /// Arithmetic, tree and picture. The tree is [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; `max_depth` bounds
+    /// how often a ray bounces.
+    pub settings: RenderSettings,
+    /// Whether the device builds the tree in its own memory; how much it takes is found out beforehand.
+    pub on_device: bool,
+    /// The triple of the target, e.g. `thumbv6m-none-eabi`, which decides the leaf size where the settings do not.
+    pub target: Option<&'a str>,
+    /// Room for so many queued rays, where that is known to do; otherwise as many as the scene's surfaces can
+    /// make wait.
+    pub rays: Option<usize>,
+}
+
+impl<'a> BakeOptions<'a> {
+    /// The scene called `name`, rendered with these settings: a tree that is built beforehand, for a target on which hit
+    /// tests cost little.
+    pub const fn new(name: &'a str, settings: RenderSettings) -> Self {
+        Self {
+            name,
+            settings,
+            on_device: false,
+            target: None,
+            rays: None,
+        }
+    }
+}
+
+/// A baked scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Baked {
+    /// Rust source.
+    pub source: String,
+    /// The format; the one that `auto` has chosen.
+    pub format: Format,
+    /// The features that the scene uses.
+    pub features: FeatureSet,
+    /// Bytes of the tables, links and nodes included, on a target of 32 bits.
+    pub bytes: usize,
+    /// How many rays can wait at once.
+    pub rays: usize,
+    /// Words of the tree, wherever it is built.
+    pub words: usize,
+    /// How many of its nodes can wait at once, at the most.
+    pub nodes: usize,
+}
+
+/// Why a scene cannot be baked.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// Targets have no such tree.
+    #[error("targets have the tree compact-bvh8 or none, not {}", .0.name())]
+    Tree(TreeKind),
+    /// The scene does not fit the format.
+    #[error("{0}")]
+    Overflow(Overflow),
+    /// A packed tree has no place for so many objects.
+    #[error("a packed tree holds at most 32767 objects")]
+    TooMany,
+}
+
+/// Bakes a scene.
+///
+/// # Errors
+/// If the scene does not fit the format or the tree, or targets have no such tree.
+pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError> {
+    struct Task<'a>(&'a Scene, &'a BakeOptions<'a>, Format);
+    impl InFormat for Task<'_> {
+        type Output = Result<Baked, BakeError>;
+        fn run<S: Prepare>(self) -> Self::Output {
+            bake_as::<S>(self.0, self.1, self.2)
+        }
+    }
+    let settings = &options.settings;
+    let format = settings.arith.format(scene, settings.max_depth);
+    format.dispatch(Task(scene, options, format))
+}
+
+fn bake_as<S: Prepare>(
+    scene: &Scene,
+    options: &BakeOptions<'_>,
+    format: Format,
+) -> Result<Baked, BakeError> {
+    let settings = &options.settings;
+    let mut prepared = S::quantised(scene, settings).map_err(BakeError::Overflow)?;
+    let growth = settings.tree.build_options(format, options.target);
+    let grow = |scene: &mut _| {
+        let growth = Growth {
+            options: growth,
+            arena: None,
+        };
+        S::compact_bvh8(scene, &growth)
+            .map_err(|_| BakeError::TooMany)
+            .map(|(tree, _)| tree)
+    };
+    let every = every_object(&prepared.scene);
+    let (tree, links) = match (settings.tree.kind, options.on_device) {
+        (TreeKind::None, _) => (source::Tree::None, every),
+        (TreeKind::CompactBvh8, false) => {
+            let tree = grow(&mut prepared.scene)?;
+            let nodes = tree.tree().required_stack();
+            (
+                source::Tree::Packed(tree.words, tree.tick, nodes),
+                tree.links,
+            )
+        }
+        (TreeKind::CompactBvh8, true) => {
+            // The device finds the objects in the order of the file.
+            let words = grow(&mut prepared.scene.clone())?.words.len();
+            (source::Tree::Device(words, growth), every)
+        }
+        (other, _) => return Err(BakeError::Tree(other)),
+    };
+    let features = features_of(&prepared, options.settings.max_depth);
+    let rays = (options.rays).unwrap_or_else(|| room(&used_surfaces(&prepared), features, options));
+    let tables = source::Tables {
+        prepared: &prepared,
+        tree,
+        links: &links,
+        features,
+        rays,
+        options,
+    };
+    Ok(Baked {
+        bytes: tables.bytes(),
+        source: tables.to_string(),
+        format,
+        features,
+        rays,
+        words: tables.tree.room(),
+        nodes: tables.tree.nodes(),
+    })
+}
+
+/// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
+fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet {
+    let scene = &prepared.scene;
+    let shapes = scene.shapes();
+    let mut set = 0;
+    let mut need = |what: FeatureSet, if_so: bool| set |= if if_so { what } else { 0 };
+    for kind in ObjectKind::ALL {
+        need(features::of_kind(kind), shapes.count(kind) > 0);
+    }
+    need(features::BANDS, !scene.bands.is_empty());
+    need(features::PATCHES, !scene.patches.is_empty());
+    need(features::SHADOWS, !scene.lights.is_empty());
+    for surface in used_surfaces(prepared) {
+        let shines = surface.specular != Vec3::ZERO;
+        need(features::SPECULAR, shines);
+        need(
+            features::FRACTIONS,
+            shines && surface.shine.fraction != S::ZERO,
+        );
+        need(
+            features::REFLECTION,
+            surface.reflect != S::ZERO && max_depth > 0,
+        );
+        need(features::REFRACTION, surface.refract != S::ZERO);
+    }
+    set
+}
+
+fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
+    let scene = &prepared.scene;
+    let mut used: Vec<u32> = (scene.attributes.iter().flatten())
+        .map(|a| a.surface)
+        .collect();
+    used.sort_unstable();
+    used.dedup();
+    (used.iter())
+        .filter_map(|&i| scene.surfaces.get(i as usize).copied())
+        .collect()
+}
+
+/// How many rays can wait at once. A surface that only reflects leaves one, taken up at once; one
+/// that also transmits leaves one more at each bounce.
+fn room<S: Scalar + Literal>(
+    surfaces: &[Surface<S>],
+    features: FeatureSet,
+    options: &BakeOptions<'_>,
+) -> usize {
+    let follows = |what| {
+        features::contains(features, what) && options.settings.max_depth > 0 && !surfaces.is_empty()
+    };
+    match (follows(features::REFLECTION), follows(features::REFRACTION)) {
+        (false, false) => 0,
+        (true, false) | (false, true) => 1,
+        (true, true) => {
+            let share = (surfaces.iter())
+                .map(|s| s.reflect.to_f64().max(s.refract.to_f64()))
+                .fold(0.0, f64::max);
+            // Shares may come out a little heavier for rounding.
+            let mut weight = 1.001;
+            let mut bounces = 0;
+            while bounces < options.settings.max_depth && weight * share >= options.settings.cut_off
+            {
+                weight *= share * 1.001;
+                bounces += 1;
+            }
+            bounces as usize + 1
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! From the parsed scene to one arithmetic: where the scene is put, how it is scaled, and whether
+//! it fits.
+//!
+//! The scene is moved and scaled by a power of two. For floating point the middle of the objects
+//! becomes the origin, where numbers are finest, and the diagonal 1 to 2. For fixed point the
+//! middle of everything, lights and viewpoint included, becomes the origin, and the diagonal as
+//! large as the format holds, so that every coordinate, distance and difference of points fits. What cannot be
+//! scaled (colours, refraction indices) is bounded by [`limits`]; if it does not fit, the value
+//! that would overflow is named. [`fn@resolution`] tells what a format is too coarse for.
+
+mod camera;
+mod extent;
+mod resolution;
+mod shapes;
+
+pub use crate::limits::{Bound, Overflow, bounds, limits};
+pub use extent::Extent;
+pub use resolution::{TooFine, grain, resolution};
+
+use crate::settings::RenderSettings;
+use octray_core::frame::Frame;
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::quantize::Quantize;
+use octray_core::scalar::{Exponent, Scalar};
+use octray_core::scene::{Attributes, Light, Scene, Surface};
+use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere, Triangle};
+use octray_core::vec3::Vec3;
+use octray_scenes::model;
+
+/// Where a scene lies in the numbers of a format: number = (coordinate − centre) · 2^exponent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// What becomes the origin.
+    pub centre: model::Point,
+    /// The exponent of the scale.
+    pub exponent: i32,
+    /// The diagonal of everything, in scene units.
+    pub diagonal: f64,
+}
+
+impl Placement {
+    /// The placement of a scene of this extent in format `S`.
+    pub fn of<S: Quantize>(extent: &Extent) -> Self {
+        // Boxes are wider than their shapes, and rounding needs a little room at the rim.
+        let diagonal = extent.diagonal() * (1.0 + 4.0 * S::SLACK) * 1.001;
+        // A ray that starts at the rim and goes as far as the diagonal ends at 1½ of it.
+        let room = if S::FRACTION_BITS.is_some() {
+            S::MAX.to_f64() / 1.5
+        } else {
+            2.0
+        };
+        let exponent = if diagonal > 0.0 {
+            (room / diagonal).log2().floor() as i32
+        } else {
+            0
+        };
+        Self {
+            centre: extent.middle(S::FRACTION_BITS.is_some()),
+            exponent,
+            diagonal: extent.diagonal(),
+        }
+    }
+
+    /// 2^exponent.
+    pub fn scale(&self) -> f64 {
+        2f64.powi(self.exponent)
+    }
+
+    /// A point of the scene as the format's numbers.
+    pub fn point(&self, p: model::Point) -> [f64; 3] {
+        [0, 1, 2].map(|i| (p[i] - self.centre[i]) * self.scale())
+    }
+
+    /// A length of the scene as the format's number.
+    pub fn length(&self, x: f64) -> f64 {
+        x * self.scale()
+    }
+}
+
+/// A scene in the numbers of one format, owned.
+#[derive(Clone, Debug, Default)]
+pub struct Quantised<S: Scalar> {
+    /// Spheres.
+    pub spheres: Vec<Sphere<S>>,
+    /// Polygons of three vertices.
+    pub triangles: Vec<Triangle<S>>,
+    /// Polygons of more.
+    pub polygons: Vec<Polygon<S>>,
+    /// Truncated cones.
+    pub cones: Vec<Cone<S>>,
+    /// Boxes.
+    pub cuboids: Vec<Cuboid<S>>,
+    /// Projected vertices of polygons.
+    pub corners: Vec<[S; 2]>,
+    /// Where the edges of polygons' bands begin.
+    pub bands: Vec<u32>,
+    /// The edges of those bands.
+    pub edges: Vec<[[S; 2]; 2]>,
+    /// Patches.
+    pub patches: Vec<Patch<S>>,
+    /// Unit normals of patches.
+    pub normals: Vec<Vec3<S>>,
+    /// Attributes of all objects, by [`ObjectKind`].
+    pub attributes: [Vec<Attributes>; 5],
+    /// Surfaces.
+    pub surfaces: Vec<Surface<S>>,
+    /// Lights.
+    pub lights: Vec<Light<S>>,
+    /// The background.
+    pub background: Vec3<S>,
+    /// How far hits may lie off their shapes.
+    pub slack: S,
+    /// The largest distance between two points.
+    pub diameter: S,
+    all_attributes: Vec<Attributes>,
+}
+
+/// A quantised scene with the picture that is to be made of it.
+#[derive(Debug)]
+pub struct Prepared<S: Quantize> {
+    /// The scene.
+    pub scene: Quantised<S>,
+    /// The picture.
+    pub frame: Frame<S>,
+    /// Where the scene lies.
+    pub placement: Placement,
+}
+
+/// Brings a scene and a view of it into format `S`.
+///
+/// # Errors
+/// If a colour, a coefficient, a refraction index or a transmitted share does not fit the format.
+pub fn quantise<S: Quantize>(
+    scene: &model::Scene,
+    settings: &RenderSettings,
+) -> Result<Prepared<S>, Overflow> {
+    limits::<S>(scene, settings.max_depth)?;
+    let rays = settings.rays(scene);
+    let extent = Extent::of(scene, &rays);
+    let placement = Placement::of::<S>(&extent);
+    let frame = settings.frame::<S>(&rays, scene, &extent, &placement);
+    let mut quantised = Quantised {
+        slack: up(placement.length(placement.diagonal) * S::SLACK),
+        diameter: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
+        surfaces: scene.surfaces.iter().map(surface).collect(),
+        lights: scene
+            .lights
+            .iter()
+            .map(|light| {
+                let position = vector(placement.point(light.position));
+                Light {
+                    position,
+                    colour: vector(light.colour),
+                    clearance: S::surface_error(position.size(), S::ZERO),
+                }
+            })
+            .collect(),
+        background: vector(scene.background),
+        ..Quantised::default()
+    };
+    for (id, object) in scene.objects.iter().enumerate() {
+        quantised.add(scene, id as u32, object, &placement);
+    }
+    quantised.gather();
+    Ok(Prepared {
+        scene: quantised,
+        frame,
+        placement,
+    })
+}
+
+impl<S: Quantize> Quantised<S> {
+    /// The scene as the tracer sees it.
+    pub fn scene(&self) -> Scene<'_, S> {
+        let shapes = self.shapes();
+        Scene {
+            shapes,
+            attributes: &self.all_attributes,
+            first: Scene::first_of(&shapes),
+            surfaces: &self.surfaces,
+            lights: &self.lights,
+            background: self.background,
+            diameter: self.diameter,
+        }
+    }
+
+    /// The geometry.
+    pub fn shapes(&self) -> Shapes<'_, S> {
+        Shapes {
+            spheres: &self.spheres,
+            triangles: &self.triangles,
+            polygons: &self.polygons,
+            cones: &self.cones,
+            cuboids: &self.cuboids,
+            outlines: Outlines {
+                corners: &self.corners,
+                bands: &self.bands,
+                edges: &self.edges,
+            },
+            patches: &self.patches,
+            normals: &self.normals,
+            slack: self.slack,
+        }
+    }
+
+    /// Puts the objects of each kind into the order in which `links` first names them, so that
+    /// objects that are tested together lie together, and renames them in `links`.
+    pub fn reorder(&mut self, links: &mut [ObjectRef]) {
+        let mut places: [Vec<u32>; 5] =
+            ObjectKind::ALL.map(|kind| vec![u32::MAX; self.shapes().count(kind)]);
+        let mut orders: [Vec<u32>; 5] = Default::default();
+        for link in links {
+            let kind = link.kind() as usize;
+            let place = &mut places[kind][link.index()];
+            if *place == u32::MAX {
+                *place = orders[kind].len() as u32;
+                orders[kind].push(link.index() as u32);
+            }
+            *link = ObjectRef::new(link.kind(), *place).marked_last(link.is_last());
+        }
+        for kind in ObjectKind::ALL {
+            let order = &mut orders[kind as usize];
+            let unlinked = places[kind as usize].iter().enumerate();
+            order.extend(
+                unlinked
+                    .filter(|(_, place)| **place == u32::MAX)
+                    .map(|(i, _)| i as u32),
+            );
+            permute(&mut self.attributes[kind as usize], order);
+            match kind {
+                ObjectKind::Sphere => permute(&mut self.spheres, order),
+                ObjectKind::Triangle => permute(&mut self.triangles, order),
+                ObjectKind::Polygon => permute(&mut self.polygons, order),
+                ObjectKind::Cone => permute(&mut self.cones, order),
+                ObjectKind::Cuboid => permute(&mut self.cuboids, order),
+            }
+        }
+        self.gather();
+    }
+
+    fn gather(&mut self) {
+        self.all_attributes = self.attributes.concat();
+    }
+}
+
+fn permute<T: Copy>(things: &mut Vec<T>, order: &[u32]) {
+    *things = order.iter().map(|&i| things[i as usize]).collect();
+}
+
+fn surface<S: Quantize>(surface: &model::Surface) -> Surface<S> {
+    let whole = surface.shine.floor().min(f64::from(u32::MAX));
+    Surface {
+        ambient: vector(surface.ambient),
+        diffuse: vector(surface.diffuse),
+        specular: vector(surface.specular),
+        shine: Exponent {
+            whole: whole as u32,
+            fraction: S::from_f64((surface.shine - whole).min(1.0)),
+        },
+        reflect: S::from_f64(surface.reflect),
+        refract: S::from_f64(surface.refract),
+        entering: S::from_f64(1.0 / surface.ior),
+        leaving: S::from_f64(surface.ior),
+    }
+}
+
+fn vector<S: Quantize>(v: [f64; 3]) -> Vec3<S> {
+    v.map(S::from_f64).into()
+}
+
+/// A number of the format that is not less than `x`.
+fn up<S: Quantize>(x: f64) -> S {
+    let near = S::from_f64(x);
+    if near.to_f64() >= x {
+        return near;
+    }
+    let step = S::FRACTION_BITS.map_or(x.abs() * 2f64.powi(-22), |bits| 2f64.powi(-(bits as i32)));
+    S::from_f64(x + step)
+}
+
+/// A number of the format that is not greater than `x`.
+fn down<S: Quantize>(x: f64) -> S {
+    -up::<S>(-x)
+}

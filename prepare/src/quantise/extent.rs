@@ -1,0 +1,98 @@
+//! How far a scene reaches.
+
+use super::camera::Rays;
+use octray_scenes::model::{Point, Scene, Shape};
+
+/// The box around all objects, and the box around all that takes part in the arithmetic: objects,
+/// lights and the places where rays start. In scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Low and high corner of the objects' box; inverted if there are none.
+    pub objects: [Point; 2],
+    /// Low and high corner of everything.
+    pub everything: [Point; 2],
+}
+
+impl Extent {
+    /// Of a scene and the rays that look at it.
+    pub(super) fn of(scene: &Scene, rays: &Rays) -> Self {
+        let nothing = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let mut objects = nothing;
+        for object in &scene.objects {
+            let [low, high] = shape_box(scene, &object.shape);
+            include(&mut objects, low);
+            include(&mut objects, high);
+        }
+        let mut everything = objects;
+        for light in &scene.lights {
+            include(&mut everything, light.position);
+        }
+        for start in rays.starts() {
+            include(&mut everything, start);
+        }
+        Self {
+            objects,
+            everything,
+        }
+    }
+
+    /// The largest distance between two points.
+    pub fn diagonal(&self) -> f64 {
+        let [low, high] = self.everything;
+        let [x, y, z] = [0, 1, 2].map(|i| high[i] - low[i]);
+        x.hypot(y).hypot(z)
+    }
+
+    /// The middle of everything, or of the objects if there are any.
+    pub fn middle(&self, everything: bool) -> Point {
+        let [low, high] = if everything || self.objects[0][0] > self.objects[1][0] {
+            self.everything
+        } else {
+            self.objects
+        };
+        [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0)
+    }
+}
+
+fn include(bounds: &mut [Point; 2], p: Point) {
+    for (i, x) in p.into_iter().enumerate() {
+        bounds[0][i] = bounds[0][i].min(x);
+        bounds[1][i] = bounds[1][i].max(x);
+    }
+}
+
+/// The box around a shape.
+pub(super) fn shape_box(scene: &Scene, shape: &Shape) -> [Point; 2] {
+    match *shape {
+        Shape::Sphere { centre, radius } => {
+            [centre.map(|c| c - radius), centre.map(|c| c + radius)]
+        }
+        Shape::Cuboid { centre, size } => [
+            [0, 1, 2].map(|i| centre[i] - size[i] / 2.0),
+            [0, 1, 2].map(|i| centre[i] + size[i] / 2.0),
+        ],
+        Shape::Cone {
+            base,
+            base_radius,
+            top,
+            top_radius,
+        } => {
+            // A circle of radius r across the axis a reaches r √(1 − aᵢ²) along axis i.
+            let axis = [0, 1, 2].map(|i| top[i] - base[i]);
+            let square: f64 = axis.iter().map(|a| a * a).sum();
+            let reach = axis.map(|a| (1.0 - a * a / square).max(0.0).sqrt());
+            let low =
+                |i: usize| (base[i] - base_radius * reach[i]).min(top[i] - top_radius * reach[i]);
+            let high =
+                |i: usize| (base[i] + base_radius * reach[i]).max(top[i] + top_radius * reach[i]);
+            [[0, 1, 2].map(low), [0, 1, 2].map(high)]
+        }
+        Shape::Polygon { first, count } | Shape::Patch { first, count, .. } => {
+            let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+            for vertex in &scene.vertices[first as usize..][..count as usize] {
+                include(&mut bounds, *vertex);
+            }
+            bounds
+        }
+    }
+}

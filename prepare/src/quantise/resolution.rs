@@ -1,0 +1,136 @@
+//! What is too fine for a format. A scene that fits a format can still be finer than what the
+//! format's directions tell apart: then methods break (`octray stability` shows where).
+
+use super::camera::{add, length, times};
+use super::extent::{Extent, shape_box};
+use crate::settings::RenderSettings;
+use octray_core::quantize::Quantize;
+use octray_scenes::model::{Point, Scene, Shape};
+use std::fmt;
+
+/// Something that a format is too coarse for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TooFine {
+    /// The format's name.
+    pub format: &'static str,
+    /// What is too fine, and what its size is a share of.
+    pub what: String,
+    /// The share.
+    pub value: f64,
+    /// The least share that the format resolves.
+    pub limit: f64,
+}
+
+impl fmt::Display for TooFine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { format, what, .. } = self;
+        let [value, limit] = [self.value, self.limit].map(|x| match 1.0 / x {
+            n if n < 10.0 => format!("1/{n:.1}"),
+            n => format!("1/{n:.0}"),
+        });
+        write!(f, "{format} resolves {limit}, but {what} is {value}")
+    }
+}
+
+impl std::error::Error for TooFine {}
+
+/// The least share of a scene's size, and the least angle in radians, that format `S` resolves: a
+/// few times what its hits may be off by.
+pub const fn grain<S: Quantize>() -> f64 {
+    4.0 * S::SLACK
+}
+
+/// So many times that a pixel has to be where roots are approximate, if there are tips of cones.
+const TIP: f64 = 2.5;
+
+/// What errors of light may add up to along a path: eight grey levels.
+const LIGHT: f64 = 8.0 / 255.0;
+/// The weight below which a ray's light is less than half a grey level.
+const LEAST_WEIGHT: f64 = 1.0 / 512.0;
+
+/// Checks that format `S` resolves the pixels of a view, the eye's distance from spheres, the
+/// objects, and the light of repeated reflections: within that, no method breaks.
+///
+/// Gaps between objects are not looked at: they should be no smaller than objects may be.
+///
+/// # Errors
+/// The first thing that is too fine.
+pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Result<(), TooFine> {
+    let check = |value: f64, limit: f64, what: &dyn Fn() -> String| {
+        if value >= limit {
+            return Ok(());
+        }
+        let (format, what) = (S::NAME, what());
+        Err(TooFine {
+            format,
+            what,
+            value,
+            limit,
+        })
+    };
+    let grain = grain::<S>();
+    let rays = settings.rays(scene);
+    let diagonal = Extent::of(scene, &rays).diagonal();
+    let (pixel, whole) = match rays.is_parallel() {
+        true => (rays.pixel(settings.size_of(scene)) / diagonal, "the scene"),
+        false => (rays.pixel(settings.size_of(scene)), "a radian"),
+    };
+    let tips = !S::EXACT_ROOTS && scene.objects.iter().any(|object| has_tip(&object.shape));
+    let least = if tips { TIP * grain } else { grain };
+    check(pixel, least, &|| format!("a pixel's share of {whole}"))?;
+    for (i, object) in scene.objects.iter().enumerate() {
+        let name = |what: &str| format!("{what} object {} as a share of the scene", i + 1);
+        check(size(scene, &object.shape) / diagonal, grain, &|| {
+            name("the size of")
+        })?;
+        if let Shape::Sphere { centre, radius } = object.shape {
+            for eye in rays.starts() {
+                let away = (length(add(eye, times(centre, -1.0))) - radius).abs();
+                check(away / diagonal, grain, &|| name("the eye's distance from"))?;
+            }
+        }
+    }
+    // Fixed point rounds the light of every ray by up to half a step.
+    let Some(bits) = S::FRACTION_BITS else {
+        return Ok(());
+    };
+    for (i, surface) in scene.surfaces.iter().enumerate() {
+        let rays = path(surface.reflect.max(surface.refract), settings.max_depth);
+        check(LIGHT / rays, 0.5f64.powi(bits as i32 + 1), &|| {
+            let i = i + 1;
+            format!("what each of {rays:.0} rays by way of surface {i} may err by")
+        })?;
+    }
+    Ok(())
+}
+
+/// How many rays of a path count if a surface passes on this share each time.
+fn path(share: f64, max_depth: u32) -> f64 {
+    let bounces = if share >= 1.0 {
+        f64::INFINITY
+    } else {
+        (LEAST_WEIGHT.ln() / share.ln()).floor()
+    };
+    1.0 + bounces.min(f64::from(max_depth))
+}
+
+fn has_tip(shape: &Shape) -> bool {
+    matches!(shape, Shape::Cone { base_radius, top_radius, .. } if base_radius.min(*top_radius) == 0.0)
+}
+
+/// The radius of a sphere, the larger one of a cone, half the largest side of anything else.
+fn size(scene: &Scene, shape: &Shape) -> f64 {
+    match *shape {
+        Shape::Sphere { radius, .. } => radius,
+        Shape::Cone {
+            base_radius,
+            top_radius,
+            ..
+        } => base_radius.max(top_radius),
+        _ => {
+            let [low, high]: [Point; 2] = shape_box(scene, shape);
+            let sides = [0, 1, 2].map(|i| high[i] - low[i]);
+            sides.into_iter().fold(0.0, f64::max) / 2.0
+        }
+    }
+}
