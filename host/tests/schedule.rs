@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{names, octray};
-use snapbox::{assert_data_eq, str};
+use common::octray;
+use snapbox::str;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
