@@ -183,8 +183,7 @@ impl FromStr for Plan {
             let (width, height) = text.split_once('x')?;
             Some((side(width)?.into(), side(height)?.into()))
         })?;
-        let pixels_per_ray =
-            lines.take("pixels-per-ray", "1 or 4", |text| PixelsPerRay::named(text))?;
+        let pixels_per_ray = lines.take("pixels-per-ray", "1 or 4", PixelsPerRay::named)?;
         let max_depth = lines.take("max-depth", "0 to 64", |text| {
             text.parse().ok().filter(|n| *n <= 64)
         })?;

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 const HEIGHT: u32 = 90;
 
 /// The file with the hashes of the speed benchmark's pictures.
-const BENCHMARK: &str = "../host/benches/pictures.csv";
+const BENCHMARK: &str = "../host/render/benches/pictures.csv";
 
 /// Scenes of the benchmark with more objects are not traced here.
 const MOST_OBJECTS: usize = 1000;

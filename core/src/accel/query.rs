@@ -1,4 +1,4 @@
-//! A query: a ray, and what a walk has found of what it meets.
+//! A query of an accelerator: a ray, and the best hit so far.
 
 use super::accelerator::Hit;
 use crate::features::FeatureSet;
@@ -80,7 +80,7 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     }
 }
 
-/// Whether an object at the very distance of the one found comes before it in the scene file.
+/// Whether an object at the same distance as the one found comes before it in the scene file.
 #[cold]
 #[inline(never)]
 fn precedes<S: Scalar, const FEATURES: FeatureSet>(
@@ -95,7 +95,7 @@ fn precedes<S: Scalar, const FEATURES: FeatureSet>(
 /// Implements [`Accelerator`](super::Accelerator) by a type's method `walk`, which takes a query and
 /// a stack.
 ///
-/// Never inlined: with one copy of the walk per use the tracer fits the code cache.
+/// The walk is not inlined into the tracer, which would not fit the code cache then.
 macro_rules! accelerate {
     ([$($generics:tt)*] $accelerator:ty, stack: $stack:ty, scalar: $scalar:ident) => {
         impl<S: $scalar, const FEATURES: $crate::features::FeatureSet $($generics)*>

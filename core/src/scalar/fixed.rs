@@ -24,9 +24,8 @@ use root::rsqrt_q30;
 /// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28: steps of 2⁻ᶠ, values from
 /// −2³¹⁻ᶠ to 2³¹⁻ᶠ.
 ///
-/// `+`, `-` and `*` need no saturation where the scene's bounds prove that nothing overflows, as
-/// they do for every scene that a planner accepted. With a counter that is
-/// [checked](SaturationCounter::CHECKED) they saturate all the same, and `C` counts each
+/// Scenes are scaled so that nothing overflows. With a counter that is
+/// [checked](SaturationCounter::CHECKED) `+`, `-` and `*` saturate all the same, and `C` counts each
 /// saturation; with `()` they wrap, in fewer instructions. All give the same bits as long as nothing
 /// saturates.
 ///
@@ -225,7 +224,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         (multiply::unsigned(self.0.max(0) as u32, n) >> F) as u32
     }
 
-    // Where a call costs little beside its products, one copy is enough.
+    // Not inlined where a call is cheap next to its products: one copy is smaller.
     #[cfg_attr(octray_armv6m, inline(never))]
     #[cfg_attr(not(octray_armv6m), inline(always))]
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {

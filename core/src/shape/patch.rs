@@ -8,7 +8,7 @@ use crate::vec3::Vec3;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Patch<S> {
-    /// The normal of the first vertex in [`super::Shapes::normals`]; one for each vertex.
+    /// The normal of the first vertex in [`Shapes::normals`](super::Shapes::normals); one for each vertex.
     pub first_normal: u32,
     /// The scale, for [`Scalar::to_local`], that brings the patch's projected extent to [½, 1).
     pub exponent: i8,

@@ -15,8 +15,8 @@ const SETTINGS: RenderSettings = RenderSettings {
 
 fn renderer(light: &str) -> Box<dyn Renderer> {
     let file = format!(
-        "v 0 0 6 at 0 0 0 up 0 1 0 angle 40 l 0 5 6 {light} l 1 5 6 {light}
-         f 0 0 0 1 1 1 0 0 0 1 0 0 s 0 0 0 2"
+        "b {light} {light} {light} v 0 0 6 at 0 0 0 up 0 1 0 angle 40 l 0 5 6 {light}
+         f 0 0 0 1 1 1 0 0 0 1 1 0 s 0 0 0 2"
     );
     let scene = octray_scenes::parse(&file).unwrap();
     prepare(&scene, &SETTINGS).unwrap()
@@ -43,7 +43,7 @@ fn saturations(renderer: &dyn Renderer) -> u64 {
 
 #[test]
 fn two_renderings_in_one_process_are_told_apart() {
-    // Each light fits the format; the sum of both does not.
+    // The light of the sphere fits the format, and so does that of the sky; the sum of both does not.
     let (bright, dim) = (renderer("6"), renderer("0.5"));
     let alone = saturations(&*bright);
     assert!(alone > 0);

@@ -13,7 +13,7 @@ use crate::features::FeatureSet;
 use crate::observe::Observer;
 use crate::ray::Ray;
 
-/// The ray as the walk wants it.
+/// The ray in the numbers of the boxes, prepared once for all nodes.
 struct WalkRay<B: ClipBoxes> {
     origin: [B; 3],
     inv_direction: [InvDirection<B>; 3],
@@ -54,8 +54,8 @@ impl<B: ClipBoxes> WalkRay<B> {
 }
 
 impl<B: ClipBoxes> Bvh8<'_, B> {
-    /// Children are visited in the order in which the ray enters them; a search for any hit takes
-    /// them as they come.
+    /// Children are visited in the order in which the ray enters them; a query for any hit takes
+    /// them in the order of the node.
     ///
     /// The nearest child is visited next without a push. The stack pointer is a `u8` and the stack
     /// has 256 slots, so indexing needs no bounds check.
@@ -104,7 +104,7 @@ impl<B: ClipBoxes> Bvh8<'_, B> {
                 }
                 next = Some(first.0);
             }
-            // Leaves are emptied on the spot; the next inner node within the limit goes on.
+            // Test the objects of leaves at once, until there is an inner node to visit.
             node = loop {
                 let word = match next.take() {
                     Some(word) => word,

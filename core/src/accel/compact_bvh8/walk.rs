@@ -49,7 +49,7 @@ impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
                     && y.clip(near >> 8 & 255, far >> 8 & 255, &mut enter, &mut exit)
                     && z.clip(near >> 16 & 255, far >> 16 & 255, &mut enter, &mut exit);
                 if !met || waiting >= ROOM {
-                    // Both cannot happen: a tree that needs more room is refused when it is made.
+                    // Never for want of room: a tree that needs more is refused when it is made.
                     if met {
                         query.observer.dropped_child();
                     }

@@ -41,7 +41,7 @@ pub(super) fn write(picture: &Picture, depth: RasDepth, out: &mut dyn Write) -> 
 }
 
 fn write_mapped(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
-    let mut indexed = palette::reduce(picture)?;
+    let mut indexed = palette::reduce(picture);
     indexed.colours.resize(COLOURS, [0; 3]);
     write_header(picture, 8, 3 * COLOURS as u32, out)?;
     for channel in 0..3 {
