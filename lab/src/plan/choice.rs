@@ -104,10 +104,10 @@ impl Chooser<'_> {
         if let Some(Some(BuildOptions { depth, leaf_size })) = best {
             for depth in (1..depth).rev() {
                 let shallow = self.candidate(packed(depth, leaf_size))?;
-                let dear = cheapest(&all[first..])
+                let too_expensive = cheapest(&all[first..])
                     .is_some_and(|best| shallow.cost.instructions > 1.2 * best.cost.instructions);
                 all.push(shallow);
-                if dear {
+                if too_expensive {
                     break;
                 }
             }

@@ -73,7 +73,7 @@ pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
         "Both trees have the depth and the leaves that `octray render` gives them; the thesis's limits are not \
          at hand, nor is the layout of its 2-D scene: `flat` is ours."
             .into(),
-        "A voxel test is a node that a ray comes to, inner ones counted.".into(),
+        "A voxel test is a visit of a node; inner nodes count.".into(),
     ];
     Ok(draft)
 }

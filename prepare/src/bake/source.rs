@@ -141,7 +141,7 @@ impl<S: Literal> Display for Tables<'_, S> {
             Tree::None => "accel::BruteForce(&LINKS)".into(),
             Tree::Packed(_, tick, _) => {
                 format!(
-                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"too little room for the walk\"),\n}}"
+                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"the traversal stack is too small\"),\n}}"
                 )
             }
             Tree::Device(..) => String::new(),
@@ -170,8 +170,8 @@ impl<S: Literal> Tables<'_, S> {
         };
         let device = match &self.tree {
             Tree::Device(words, accel::BuildOptions { depth, leaf_size }) => format!(
-                "/// Words that the tree takes on the device.\npub const TREE_WORDS: usize = {words};\n\
-                 /// How it is built.\npub const GROWTH: accel::BuildOptions = \
+                "/// The words of the tree on the device.\npub const TREE_WORDS: usize = {words};\n\
+                 /// How the tree is built.\npub const GROWTH: accel::BuildOptions = \
                  accel::BuildOptions {{ depth: {depth}, leaf_size: {leaf_size} }};\n"
             ),
             _ => String::new(),
@@ -194,11 +194,11 @@ impl<S: Literal> Tables<'_, S> {
              /// The scene's name.\npub const NAME: &str = {name:?};\n\
              /// The arithmetic's name.\npub const ARITH: &str = {:?};\n\
              /// Columns.\npub const WIDTH: u32 = {};\n/// Rows.\npub const HEIGHT: u32 = {};\n\
-             /// The most bounces.\npub const MAX_DEPTH: u32 = {};\n\
-             /// Rays of less weight are not traced.\npub const CUT_OFF: S = {};\n\
-             /// How many rays can wait at once.\npub const RAYS: usize = {};\n\
-             /// How many lights there are.\npub const LIGHTS: usize = {};\n\
-             /// How many objects there are.\npub const OBJECTS: usize = {};\n\
+             /// The maximum number of bounces.\npub const MAX_DEPTH: u32 = {};\n\
+             /// Rays of a smaller weight are not traced.\npub const CUT_OFF: S = {};\n\
+             /// The maximum number of queued rays.\npub const RAYS: usize = {};\n\
+             /// The number of lights.\npub const LIGHTS: usize = {};\n\
+             /// The number of objects.\npub const OBJECTS: usize = {};\n\
              {device}\n\
              const fn n(raw: {raw}) -> S {{\n    {}\n}}\n\n\
              const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \
