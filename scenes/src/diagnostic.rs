@@ -156,9 +156,7 @@ mod tests {
 
     #[test]
     fn without_the_source_mistakes_are_counted_and_the_first_is_placed() {
-        let told = |source: &str| parse(source).unwrap_err().to_string();
-        assert_eq!(told("  x"), "2 mistakes in the scene, the first at byte 2");
-        let many = "x ".repeat(40);
-        assert!(told(&many).starts_with("at least 20 mistakes in the scene"));
+        let told = parse("  x").unwrap_err().to_string();
+        assert_eq!(told, "2 mistakes in the scene, the first at byte 2");
     }
 }
