@@ -1,16 +1,19 @@
-//! Bakes the scene, and chooses the memory layout of the board.
+//! Bakes the scene and copies the board's memory layout.
 //!
 //! | variable | what | default |
 //! | --- | --- | --- |
-//! | `OCTRAY_SCENE` | the scene file, from the workspace's folder | `scenes/figure-22.scene` |
+//! | `OCTRAY_SCENE` | the scene file, relative to the workspace | `scenes/figure-22.scene` |
 //! | `OCTRAY_ARITH` | the arithmetic | `auto` |
 //! | `OCTRAY_SIZE` | columns x rows | `160x120` |
-//! | `OCTRAY_TREE` | `compact-bvh8`, `device` (the same, built on the board), `none`, or `auto`: whichever costs less | `auto` |
-//! | `OCTRAY_MAX_DEPTH` | bounces | 8 |
-//! | `OCTRAY_LEAF_SIZE` | objects up to which a node is not divided | 1 where a test costs far more than a box, otherwise 2 |
+//! | `OCTRAY_TREE` | `compact-bvh8`, `device` (the same, built on the board), `none`, or `auto`: the cheaper one |
+//! `auto` |
+//! | `OCTRAY_MAX_DEPTH` | maximum number of bounces | 8 |
+//! | `OCTRAY_LEAF_SIZE` | nodes of up to this many objects are not divided | 1 if a hit test costs far more than a box
+//! test, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
-//! | `OCTRAY_CUT_OFF` | the weight, from 0 to 1, below which a ray is not traced | 1/512 |
-//! | `OCTRAY_PLAN` | a plan of `octray plan --emit`, of this scene, which says all of the above but it | none |
+//! | `OCTRAY_CUT_OFF` | rays of a smaller weight, from 0 to 1, are not traced | 1/512 |
+//! | `OCTRAY_PLAN` | a plan of `octray plan --emit` for this scene, which replaces all settings above except the scene
+//! | none |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_prepare::bake::{BakeOptions, bake};
@@ -29,7 +32,7 @@ fn main() {
     }
 }
 
-/// A variable, or its default; the build is repeated when it changes.
+/// Returns the value of a variable, or its default; the build is repeated when the variable changes.
 fn variable(name: &str, default: &str) -> String {
     println!("cargo::rerun-if-env-changed={name}");
     env::var(name).unwrap_or_else(|_| default.into())
@@ -41,7 +44,7 @@ fn number(name: &str, default: u32) -> Result<u32, String> {
         .map_err(|_| format!("{name}={text}: expected a number"))
 }
 
-/// One of a list of names.
+/// Parses one of a list of names.
 fn named<T: Choice>(name: &str, default: &str) -> Result<T, String> {
     let text = variable(name, default);
     T::named(&text).ok_or_else(|| {
@@ -107,7 +110,7 @@ fn baked() -> Result<String, String> {
         settings: RenderSettings {
             arith,
             tree: TreeSettings {
-                // 0 stands for the default.
+                // 0 means the default.
                 leaf_size: NonZeroU32::new(number("OCTRAY_LEAF_SIZE", 0)?),
                 ..TreeSettings::of(kind)
             },

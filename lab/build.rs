@@ -11,18 +11,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         let name = file.file_name().into_string().ok()?;
         is_date(name.strip_suffix(".csv")?).then_some(name)
     });
-    let newest = records.max().ok_or("host/record holds no YYYY-MM-DD.csv")?;
+    let newest = records.max().ok_or("lab/record holds no YYYY-MM-DD.csv")?;
     println!("cargo::rustc-env=OCTRAY_RECORD={folder}/{newest}");
     let chart = newest.replace(".csv", ".svg");
     if !fs::exists(format!("{folder}/{chart}"))? {
-        return Err(format!("host/record holds no {chart}").into());
+        return Err(format!("lab/record holds no {chart}").into());
     }
     println!("cargo::rustc-env=OCTRAY_RECORD_CHART={folder}/{chart}");
-    println!("cargo::rustc-env=OCTRAY_RECORD_NAME=host/record/{newest}");
+    println!("cargo::rustc-env=OCTRAY_RECORD_NAME=lab/record/{newest}");
     Ok(())
 }
 
-/// Whether a text is like `2026-11-25`.
+/// Returns whether a text is a date such as `2026-11-25`.
 fn is_date(text: &str) -> bool {
     text.len() == 10
         && (text.bytes().enumerate()).all(|(i, byte)| match i {

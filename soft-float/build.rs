@@ -1,14 +1,14 @@
-//! Tells what the target's core has: stable compilers do not say in `target_feature`, the target's
-//! name does.
+//! Derives the features of the target's core from the target's name, because `target_feature` on stable compilers does
+//! not contain them.
 //!
 //! | flag | meaning |
 //! | --- | --- |
 //! | `soft_f32` | an Arm or RISC-V core on which the compiler calls routines for `f32` |
-//! | `long_multiply` | 32 x 32 to 64 bits in an instruction or two |
-//! | `divide` | 32 by 32 bits in an instruction |
-//! | `leading_zeros` | counted by an instruction |
+//! | `long_multiply` | multiplies 32 x 32 to 64 bits in one or two instructions |
+//! | `divide` | divides 32 by 32 bits in one instruction |
+//! | `leading_zeros` | counts leading zeros in one instruction |
 //!
-//! `OCTRAY_SOFT_FLOAT_PLAIN=1` denies the last three, so that a host can test what the least cores do.
+//! `OCTRAY_SOFT_FLOAT_PLAIN=1` disables the last three, so that a host can test the code for the smallest cores.
 
 use std::env;
 
@@ -19,7 +19,7 @@ fn main() {
     let target = env::var("TARGET").unwrap_or_default();
     let cpu = target.split('-').next().unwrap_or_default();
     let plain = env::var("OCTRAY_SOFT_FLOAT_PLAIN").is_ok_and(|value| value != "0");
-    // Of Arm's cores for microcontrollers, the ones with the large instruction set have all.
+    // Arm's microcontroller cores with the full Thumb-2 instruction set have all of these instructions.
     let large_arm = cpu.starts_with("thumbv7") || cpu == "thumbv8m.main";
     let (soft, arithmetic, leading_zeros) = match cpu.strip_prefix("riscv32") {
         Some(letters) => (

@@ -1,14 +1,13 @@
-//! What is the same on every board: the frame, its marks for whoever counts instructions, the
-//! report and the exit.
+//! The part that all boards share: the frame with the marks for counting instructions, the report and the exit.
 
 #[cfg(target_arch = "arm")]
 mod cortex_m;
+mod dropped;
 mod marks;
+mod print;
 #[cfg(target_arch = "riscv32")]
 mod riscv;
-mod room;
 mod stack;
-mod tell;
 
 use crate::baked::{CUT_OFF, FEATURES, FRAME, HEIGHT, LIGHTS, MAX_DEPTH, RAYS, S, SCENE, WIDTH};
 use core::convert::Infallible;
@@ -24,23 +23,23 @@ use octray_embedded::hash::HashPanel;
 use octray_embedded::render::{ROWS, render};
 use semihosting::process::exit;
 
-/// Renders, tells, exits.
+/// Renders, reports, exits.
 fn run() -> ! {
     stack::paint();
     let hash = frame();
     let deepest = stack::deepest();
-    tell::text("scene ");
-    tell::text(crate::baked::NAME);
-    tell::text("\narith ");
-    tell::text(crate::baked::ARITH);
-    tell::text("\nhash ");
-    tell::hexadecimal(hash);
-    tell::number("stack", deepest.unwrap_or(0));
-    let dropped = room::dropped();
+    print::text("scene ");
+    print::text(crate::baked::NAME);
+    print::text("\narith ");
+    print::text(crate::baked::ARITH);
+    print::text("\nhash ");
+    print::hexadecimal(hash);
+    print::number("stack", deepest.unwrap_or(0));
+    let dropped = dropped::total();
     if dropped > 0 {
-        tell::number("dropped", dropped);
+        print::number("dropped", dropped);
     }
-    tell::text("\n");
+    print::text("\n");
     exit(match deepest {
         Some(_) if dropped > 0 => 104,
         Some(_) => 0,
@@ -48,13 +47,13 @@ fn run() -> ! {
     })
 }
 
-/// Renders the picture with the tree that was baked; its hash.
+/// Renders the picture with the baked tree and returns its hash.
 #[cfg(not(octray_device_tree))]
 fn frame() -> u64 {
     trace(&crate::baked::TREE)
 }
 
-/// Builds the tree in its own memory and renders the picture; its hash. 0 if the tree has no room.
+/// Builds the tree in its own memory, renders the picture and returns its hash; 0 if the tree does not fit.
 #[cfg(octray_device_tree)]
 fn frame() -> u64 {
     use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
@@ -64,7 +63,7 @@ fn frame() -> u64 {
 
     let mut words = [0; TREE_WORDS];
     let mut links = [ObjectRef::default(); OBJECTS];
-    // A call of its own, so that its boxes are gone when the picture is rendered.
+    // A function of its own, so that its boxes are freed before the picture is rendered.
     #[inline(never)]
     fn build<'a>(words: &'a mut [u32], links: &'a mut [ObjectRef]) -> Option<CompactBvh8<'a>> {
         let mut boxes = [Aabb::default(); OBJECTS];
@@ -82,7 +81,7 @@ fn frame() -> u64 {
     build(&mut words, &mut links).map_or(0, |tree| trace(&tree))
 }
 
-/// Renders the picture; its hash.
+/// Renders the picture and returns its hash.
 #[inline(never)]
 fn trace<A: Accelerator<S, FEATURES>>(tree: &A) -> u64 {
     let tracer = Tracer {
@@ -107,13 +106,13 @@ fn trace<A: Accelerator<S, FEATURES>>(tree: &A) -> u64 {
         &tracer,
         &mut workspace,
         &mut strip,
-        &mut room::Observed,
+        &mut dropped::DropCounter,
     );
     octray_pause();
     panel.0.hash()
 }
 
-/// The panel, with whatever it does left out of what is measured.
+/// The panel; its instructions are excluded from the count.
 struct Panel(HashPanel);
 
 impl OriginDimensions for Panel {

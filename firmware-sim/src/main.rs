@@ -1,12 +1,12 @@
-//! On a board without operating system: renders the scene that the build script has baked, and reports the picture's
-//! hash, what was counted and the deepest stack by semihosting. Exit code 0 if all went well, 101 after a panic, 102
-//! after a fault, 103 if the stack ran out, 104 if rays found no room.
+//! Firmware for a board without an operating system: renders the scene that the build script baked, and reports the
+//! picture's hash and the maximum stack depth by semihosting. Exit codes: 0 success, 101 panic, 102 fault, 103 stack
+//! overflow, 104 missing capacity for rays.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
 mod board;
 
-// Linked for its names, which are those of the compiler's routines.
+// Linked for its symbols, which replace the compiler's routines.
 #[cfg(all(target_os = "none", feature = "fast-soft-float"))]
 use octray_soft_float as _;
 

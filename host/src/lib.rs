@@ -25,16 +25,16 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// The exit code of a process that was interrupted, as shells have it for Ctrl-C.
+/// The exit code of an interrupted process, as in shells after Ctrl-C.
 pub const INTERRUPTED: u8 = 130;
 
-/// Does what a command line of `octray` asks for. Messages go to standard error. The exit code is 0 when done,
-/// 1 when it failed, 2 for bad usage and 130 when interrupted.
+/// Runs a command line of `octray`. Messages go to standard error. The exit code is 0 for success, 1 for failure, 2 for
+/// bad usage and 130 for an interrupt.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Cli::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => {
-            // Help or a complaint; if nobody reads it, so be it.
+            // Help or an error message; it is not an error if it cannot be printed.
             let _ = answer.print();
             return match answer.use_stderr() {
                 true => ExitCode::from(2),
@@ -51,8 +51,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// A flag that Ctrl-C, a termination or a hang-up of the terminal sets; a second one ends the process at once, in case
-/// it is stuck where nothing polls.
+/// Returns a flag that Ctrl-C, a termination signal or a hang-up of the terminal sets. A second signal ends the process
+/// at once, in case it is stuck in code that does not poll the flag.
 fn on_signal() -> Result<Interrupt, Error> {
     let interrupt = Interrupt::new();
     let flag = interrupt.clone();
@@ -84,7 +84,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
     }
 }
 
-/// 2 for bad usage, 130 for an interrupt, 0 for a reader of standard output that went away, 1 for the rest.
+/// Returns 2 for bad usage, 130 for an interrupt, 0 for a closed pipe at standard output, 1 otherwise.
 fn exit_code(error: &Error) -> ExitCode {
     ExitCode::from(match error {
         Error::Usage(_) => 2,
@@ -97,10 +97,10 @@ fn exit_code(error: &Error) -> ExitCode {
 /// Writes a failure to standard error, in the form in which bad arguments are reported.
 fn report_error(error: &Error) {
     let mut stderr = io::stderr().lock();
-    // Nothing is left to do if that fails.
+    // A failure to print cannot be reported.
     let _ = match error {
         Error::BrokenPipe => Ok(()),
-        // Drawn diagnostics bring their own heading.
+        // Drawn diagnostics have their own heading.
         Error::Scene(_) | Error::Interrupted => writeln!(stderr, "{error}"),
         Error::Bounds(exceeded) => exceeded
             .iter()

@@ -33,9 +33,9 @@ const REQUEST: i32 = 1;
 /// Tag of a traced tile: its number and its pixels. It also requests another tile.
 const RESULT: i32 = 2;
 /// Tag of a rank's counts, sent when it has no more tiles.
-const TALLY: i32 = 3;
+const COUNTS: i32 = 3;
 /// Tag of the number of a tile to trace, or [`NONE`].
-const PACKET: i32 = 4;
+const TILE: i32 = 4;
 
 /// The number that means that no tile is left.
 const NONE: u32 = u32::MAX;
@@ -52,7 +52,7 @@ const PAUSE: Duration = Duration::from_micros(20);
 
 /// The work of a rank.
 #[derive(Serialize, Deserialize)]
-struct Plan<'a> {
+struct RankJob<'a> {
     scene: Cow<'a, Scene>,
     settings: RenderSettings,
     shape: TileSize,
@@ -62,7 +62,7 @@ struct Plan<'a> {
 
 /// What a rank counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Tally {
+struct RankCounts {
     rays: [u64; 4],
     hits: [u64; 4],
     blocked: u64,
@@ -70,13 +70,13 @@ struct Tally {
     searches: [([u64; 5], [u64; 5], [u64; 5]); 2],
     deepest: u64,
     saturations: u64,
-    /// Rays and nodes that found no room, shadow rays to lights beyond the shadow cache.
+    /// Rays and nodes that exceeded a capacity, and shadow rays to lights beyond the shadow cache.
     dropped: [u64; 3],
     /// Seconds of tracing.
     busy: f64,
 }
 
-impl Tally {
+impl RankCounts {
     fn new(counters: &Counters, saturations: u64, busy: Duration) -> Self {
         Self {
             rays: counters.rays,
@@ -140,12 +140,12 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
             let done = render::run(job, interrupt, |scene, job, progress, interrupt| {
                 leader.trace(scene, job, progress, interrupt)
             });
-            if leader.waited_for() {
-                broadcast::<Plan<'_>>(&world, None);
+            if leader.others_wait() {
+                broadcast::<RankJob<'_>>(&world, None);
             }
-            match leader.alone() {
+            match leader.others_idle() {
                 true => done,
-                false => return abandon(universe, done),
+                false => return exit_without_others(universe, done),
             }
         }
         rank => match serve::serve(&mut universe, interrupt) {
@@ -154,7 +154,7 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
             Err(Error::Interrupted) => std::process::exit(crate::INTERRUPTED.into()),
             Err(error) => {
                 let failure = Err(failed(format!("rank {rank}: {error}")));
-                return abandon(universe, failure);
+                return exit_without_others(universe, failure);
             }
         },
     };
@@ -163,7 +163,10 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
 }
 
 /// Ends without MPI's shutdown, because ranks that still work would never take part in it. `mpirun` ends them.
-fn abandon(universe: mpi::environment::Universe, done: Result<(), Error>) -> Result<(), Error> {
+fn exit_without_others(
+    universe: mpi::environment::Universe,
+    done: Result<(), Error>,
+) -> Result<(), Error> {
     std::mem::forget(universe);
     done.map_err(|error| match error {
         Error::Interrupted => failed(

@@ -41,7 +41,7 @@ pub struct Stats {
     pub hits: u64,
     /// Fixed-point results that were clamped to the format's range.
     pub saturations: u64,
-    /// What found no room.
+    /// Rays and nodes that exceeded a capacity.
     pub dropped: Dropped,
     /// The tree.
     pub tree: TreeStats,
@@ -55,7 +55,8 @@ pub struct Stats {
     pub hash: u64,
 }
 
-/// What found no room: all 0 unless something is wrong with octray, as it makes room for all that a scene can need.
+/// Rays and nodes that exceeded a capacity. Every number is 0 unless octray has a bug, because its capacities suffice for
+/// any scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Dropped {
     /// Reflected and transmitted rays that were not traced.

@@ -47,16 +47,16 @@ impl fmt::Display for Summary<'_> {
             count(f, "saturations", stats.saturations, "")?;
         }
         let dropped = &stats.dropped;
-        let room = [
+        let capacities = [
             (
                 "dropped rays",
                 dropped.rays,
-                "  for want of room: the picture lacks their light",
+                "  by lack of capacity: the picture lacks their light",
             ),
             (
                 "dropped nodes",
                 dropped.nodes,
-                "  for want of room: the picture may lack objects",
+                "  by lack of capacity: the picture may lack objects",
             ),
             (
                 "uncached",
@@ -64,7 +64,7 @@ impl fmt::Display for Summary<'_> {
                 "  shadow rays to lights beyond the shadow cache: slower",
             ),
         ];
-        for (name, number, what) in room.into_iter().filter(|(_, number, _)| *number > 0) {
+        for (name, number, what) in capacities.into_iter().filter(|(_, number, _)| *number > 0) {
             count(f, name, number, what)?;
         }
         let stages = [
@@ -213,8 +213,8 @@ node visits         1,234,567  3.24 per ray
 object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
-dropped rays                2  for want of room: the picture lacks their light
-dropped nodes               3  for want of room: the picture may lack objects
+dropped rays                2  by lack of capacity: the picture lacks their light
+dropped nodes               3  by lack of capacity: the picture may lack objects
 uncached                    4  shadow rays to lights beyond the shadow cache: slower
 time          parse 750 us, build 2.5 ms, render 250 ms
 work          1,524,292 rays/s, 2 threads, 64 tiles of 16 x 16 pixels, dynamic schedule

@@ -1,4 +1,4 @@
-//! The command as it is built without the laboratory.
+//! The command built without the laboratory.
 #![cfg(not(feature = "lab"))]
 
 use snapbox::cmd::cargo_bin;
@@ -10,7 +10,7 @@ fn octray(line: &str) -> Output {
 }
 
 #[test]
-fn commands_of_the_laboratory_say_in_one_line_how_to_get_them() {
+fn commands_of_the_laboratory_report_in_one_line_how_to_get_them() {
     for name in [
         "measure",
         "chart",
@@ -40,7 +40,7 @@ fn commands_of_the_laboratory_say_in_one_line_how_to_get_them() {
 }
 
 #[test]
-fn help_lists_what_there_is_and_what_there_could_be() {
+fn help_lists_the_built_and_the_missing_commands() {
     let help = String::from_utf8(octray("--help").stdout).unwrap();
     let (commands, more) = help.split_once("Built with --features lab").unwrap();
     for name in ["render", "check", "diff", "generate", "bake"] {

@@ -5,7 +5,7 @@ use octray_lab::measure::board::{BOARDS, Board};
 use octray_lab::plan::accuracy::fixed_point;
 use octray_lab::plan::comb::comb;
 use octray_lab::plan::events::Probe;
-use octray_lab::plan::job::{Bounds, Numbers, PlanJob, memory};
+use octray_lab::plan::job::{Numbers, PlanJob, PlanLimits, memory};
 use octray_lab::plan::model::Model;
 use octray_lab::plan::record;
 use octray_prepare::bake::bake;
@@ -50,7 +50,7 @@ fn job(board: &'static Board, numbers: Numbers) -> PlanJob {
     PlanJob {
         scene: "test.scene".into(),
         board,
-        bounds: Bounds {
+        limits: PlanLimits {
             flash,
             ram,
             min_psnr: MIN_PSNR,

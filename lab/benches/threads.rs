@@ -1,13 +1,12 @@
-//! How well two threads share a picture: measured, beside what the simulation expects of this machine.
+//! Measures how well two threads share a picture, and compares it with the simulation of this machine.
 //!
-//! `cargo bench -p octray-lab --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at
-//! 512 × 512 in f32. Every round takes each scene in turn: on the first core, on the second, on both at once
-//! by threads that have nothing to do with each other, and in each of [`TILINGS`] by two threads that share the
-//! picture and by one alone. What two cores lose against one where nothing is shared is the contention that
-//! the simulation is given, and 2 / (1 + contention) is all that this machine allows. Speed-ups are over one
-//! thread that takes the same tiles, since some shapes take fewer instructions than others; the last but one
-//! column is over the fastest thread whatever its tiles. Figures are medians over the rounds. It fails if a
-//! picture is another than on one thread.
+//! `cargo bench -p octray-lab --bench threads -- [--rounds N]` renders the scenes of figures 19 to 23 at 512 × 512 in
+//! f32. Every round renders each scene on the first core, on the second, on both at once by independent threads, and in
+//! each of [`TILINGS`] by two threads that share the picture and by one alone. The slowdown of two independent threads
+//! is the contention of the simulation; 2 / (1 + contention) is the upper bound on this machine. Speed-ups are relative
+//! to one thread that renders the same tiles, because some tile sizes need fewer instructions than others; the last
+//! column but one is relative to the fastest thread with any tiles. Numbers are medians over the rounds. The benchmark
+//! fails if a picture differs from that of one thread.
 
 mod common {
     pub(crate) mod table;
@@ -33,7 +32,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::thread;
 
-/// How every picture is rendered.
+/// The settings of every picture.
 const SETTINGS: RenderSettings = RenderSettings {
     size: Some((512, 512)),
     ..RenderSettings::DEFAULT
@@ -52,14 +51,14 @@ const fn strip(rows: u32) -> TileSize {
     TileSize::strip(NonZeroU32::new(rows).unwrap())
 }
 
-/// Compare the speed-up of two threads with what the simulation expects
+/// Compare the speed-up of two threads with the simulation
 #[derive(Debug, Parser)]
 #[command(name = "threads")]
 struct Args {
-    /// How often each scene is rendered in each way
+    /// Number of rounds
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
-    /// Given by cargo
+    /// Passed by cargo
     #[arg(long, hide = true)]
     bench: bool,
 }
@@ -109,20 +108,20 @@ fn run(args: &Args) -> Result<(), Error> {
     Ok(())
 }
 
-/// A scene, and what it took in each round.
+/// A scene, and its measurements in each round.
 struct Subject {
     name: String,
     scene: Scene,
     samples: Vec<Sample>,
 }
 
-/// One round; seconds on one core are the mean of both.
+/// One round; seconds on one core are the mean of both cores.
 struct Sample {
-    /// On one core, as one thread packs it.
+    /// Seconds on one core, in the tiles of one thread.
     fixed: f64,
-    /// On both at once, each for a picture of its own.
+    /// Seconds on both cores at once, each with its own picture.
     beside: f64,
-    /// What came of each of [`TILINGS`], and the seconds that it took on one core.
+    /// The result of each of [`TILINGS`], and its seconds on one core.
     tiled: Vec<(Rendering, f64)>,
 }
 
@@ -185,7 +184,7 @@ impl Subject {
         })
     }
 
-    /// What was measured of each tiling, and what the simulation expects of it.
+    /// Returns the measurements of each tiling, and the simulation's predictions.
     fn rows(&self) -> Result<Vec<[String; 9]>, Error> {
         let samples = &self.samples;
         let contention = median(samples, |s| s.beside / s.fixed) - 1.0;
@@ -214,7 +213,7 @@ impl Subject {
         TILINGS.iter().enumerate().map(row).collect()
     }
 
-    /// The speed-up that the simulation expects, knowing what each pixel costs.
+    /// Returns the speed-up that the simulation predicts from the cost of each pixel.
     fn expected(&self, traced: &Rendering, contention: f64) -> Result<f64, Error> {
         let renderer = renderer::prepare(&self.scene, &SETTINGS)?;
         let map = CostMap::probe(&*renderer, NonZeroU32::MIN, &Interrupt::new())?;
@@ -238,7 +237,7 @@ fn trace(scene: &Scene, work: &Schedule) -> Result<Rendering, Error> {
     render::render_with(scene, &SETTINGS, work, false, &(), &Interrupt::new())
 }
 
-/// Does something on a thread of its own, since pinning lasts.
+/// Runs `work` on a thread of its own, because pinning a thread is permanent.
 fn on_its_own<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     thread::scope(|scope| joined(scope.spawn(work)))
 }
@@ -250,7 +249,7 @@ fn joined<T>(handle: thread::ScopedJoinHandle<'_, T>) -> T {
     }
 }
 
-/// The median of a value over all samples, of which there is at least one.
+/// Returns the median of a value over all samples, of which there is at least one.
 fn median<T>(samples: &[T], value: impl Fn(&T) -> f64) -> f64 {
     let mut values: Vec<_> = samples.iter().map(value).collect();
     values.sort_by(f64::total_cmp);

@@ -1,9 +1,9 @@
-//! `octray chart`: what accuracy costs, over arithmetics and settings, and which of them to choose.
+//! `octray chart`: charts accuracy against cost over arithmetics and settings, and chooses among them.
 //!
-//! In the order of the data: every combination of what is asked for is a [`setting`]; [`accuracy`] renders it
-//! and tells how far off it is; [`cost`] measures what it takes, by [`callgrind`] where instructions of this
-//! machine are counted; [`choose`] finds the points that no other beats, and names some; a panel of [`point`]s; [`figure`] draws them
-//! over [axes](axis), with [`label`]s that do not overlap; [`report`] tells them as tables, JSON and CSV.
+//! In the order of the data: [`setting`] makes every combination; [`accuracy`] renders each and measures its distance
+//! from the reference; [`cost`] measures its cost, with [`callgrind`] if instructions of this machine are counted;
+//! [`choose`] finds the Pareto-optimal points and names some; a panel holds [`point`]s; [`figure`] draws them over
+//! [axes](axis), with [`label`]s that do not overlap; [`report`] prints them as tables, JSON and CSV.
 
 pub mod accuracy;
 pub mod axis;
@@ -17,7 +17,7 @@ pub mod report;
 pub mod setting;
 
 use crate::canvas;
-use crate::measure::frames::{self, Named};
+use crate::measure::frames::{self, NamedScene};
 use accuracy::{Accuracy, Judge};
 use cost::{CostKind, Meter};
 use figure::Chart;
@@ -31,23 +31,23 @@ use setting::Grid;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// Everything `octray chart` was asked for. Nothing contradicts, and there is at least one setting and one kind
-/// of cost.
+/// Everything that `octray chart` was asked to do. Values do not contradict each other, and there is at least one
+/// setting and one kind of cost.
 #[derive(Clone, Debug)]
 pub struct ChartJob {
-    /// The scene files; the five figures if there is none.
+    /// The scene files; the five figures if empty.
     pub scenes: Vec<PathBuf>,
     /// The settings to combine.
     pub grid: Grid,
-    /// What is counted as cost: a panel for each.
+    /// The kinds of cost, one panel each.
     pub costs: Vec<CostKind>,
     /// Columns and rows.
     pub size: (u32, u32),
     /// Rays per pixel in each direction of the converged reference.
     pub converged_samples: u32,
-    /// Rounds of which the median time counts.
+    /// Number of rounds; the median time counts.
     pub rounds: NonZeroUsize,
-    /// What to choose by.
+    /// The criteria of the choices.
     pub wishes: Wishes,
     /// Where to draw the chart.
     pub output: Option<PathBuf>,
@@ -57,10 +57,10 @@ pub struct ChartJob {
     pub json: Option<PathBuf>,
 }
 
-/// Measure, choose, draw and tell.
+/// Measures, chooses, draws and prints.
 ///
 /// # Errors
-/// When a tool is missing, a scene is refused, something cannot be written, or there is no point at all.
+/// If a tool is missing, a scene is refused, something cannot be written, or there is no point.
 pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.output.iter().chain(&job.csv).chain(&job.json) {
         output::probe(path)?;
@@ -80,37 +80,37 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     })
 }
 
-/// The points of every scene: a panel for each kind of cost.
+/// Measures the points of every scene: one panel per kind of cost.
 ///
 /// # Errors
-/// When a tool is missing, a scene is refused, or there is no point at all.
+/// If a tool is missing, a scene is refused, or there is no point.
 pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Error> {
     let scenes = frames::scenes(&job.scenes)?;
-    // What is missing is told before any work.
+    // A missing tool is reported before any work.
     let meter = Meter::new(job, &job.costs, interrupt)?;
     panels(&judge(scenes, job, interrupt)?, job, &job.costs, &meter)
 }
 
-/// A scene, and how far off its picture is with each setting; or why it has none.
+/// A scene, and the distance of its picture from the reference for each setting, or why there is none.
 pub struct Judged {
     path: PathBuf,
-    scene: Named,
+    scene: NamedScene,
     outcomes: Vec<(RenderSettings, Result<Accuracy, String>)>,
 }
 
-/// How far off every picture of every scene is.
+/// Measures the distance of every picture of every scene.
 ///
 /// # Errors
-/// When a scene does not even fit f64, or the work is interrupted.
+/// If a scene does not even fit f64, or the work is interrupted.
 pub fn judge(
-    scenes: Vec<(PathBuf, Named)>,
+    scenes: Vec<(PathBuf, NamedScene)>,
     job: &ChartJob,
     interrupt: &Interrupt,
 ) -> Result<Vec<Judged>, Error> {
     let settings = job.grid.settings(job.size);
     let progress = Bar::new("judging");
     progress.start(scenes.len() * settings.len());
-    let judged = |(path, scene): (PathBuf, Named)| {
+    let judged = |(path, scene): (PathBuf, NamedScene)| {
         let mut judge = Judge::new(&scene.scene, job, interrupt)?;
         let outcomes = (settings.iter())
             .map(|setting| {
@@ -128,10 +128,10 @@ pub fn judge(
     scenes.into_iter().map(judged).collect()
 }
 
-/// The points of every scene that has been judged: a panel for each of some kinds of cost.
+/// Measures the points of every judged scene: one panel per kind of cost.
 ///
 /// # Errors
-/// When a tool fails, the work is interrupted, or there is no point at all.
+/// If a tool fails, the work is interrupted, or there is no point.
 pub fn panels(
     judged: &[Judged],
     job: &ChartJob,
@@ -156,7 +156,7 @@ pub fn panels(
 }
 
 impl Judged {
-    /// The scene's points on one scale of cost.
+    /// Returns the scene's points for one kind of cost.
     fn panel(
         &self,
         kind: CostKind,

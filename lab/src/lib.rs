@@ -1,16 +1,16 @@
-//! The laboratory of octray: what measures it, and what the measurements say.
+//! The laboratory of octray: measurements, and their analysis.
 //!
 //! | module | the command of that name |
 //! | --- | --- |
-//! | [`measure`] | what frames cost on emulated boards |
-//! | [`chart`] | speed against accuracy |
-//! | [`plan`] | the least a scene needs on a small target |
-//! | [`schedule`], [`simulate`] | `octray schedule`: how well a picture is shared among processors |
+//! | [`measure`] | the cost of frames on emulated boards |
+//! | [`chart`] | accuracy against cost |
+//! | [`plan`] | the least that a scene needs on a microcontroller |
+//! | [`schedule`], [`simulate`] | `octray schedule`: how well processors share a picture |
 //! | [`tables`] | the thesis's tables |
 //! | [`stability`] | where methods hold, degrade and break |
 //! | [`report`] | all of it on one page |
 //!
-//! [`canvas`] is what charts and maps are drawn on.
+//! [`canvas`] is the drawing surface of charts and maps.
 
 pub mod canvas;
 pub mod chart;

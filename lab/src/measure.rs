@@ -1,11 +1,10 @@
-//! `octray measure`: what pictures cost on small targets, counted in an emulator.
+//! `octray measure`: the cost of pictures on microcontrollers, counted in an emulator.
 //!
-//! In the order of the data: a checked [`job`]; [`workspace`] builds the firmware and the
-//! emulator's plugin; [`emulate`] runs a [`board`] and reads what was [counted](count);
-//! [`reference`](mod@reference) is the same picture on the host; [`memory`] and [`cycles`] are read
-//! from the program and from tables; [`frames`] puts it together, a [`row`] for each combination,
-//! and [`report`] and [`table`] tell it, with the [`ratio`]s that the thesis's table III has, and their [`chart`].
-//! [`kernels`] does the same with single operations.
+//! In the order of the data: [`job`] is a checked command line; [`source_tree`] builds the firmware and the emulator's
+//! plugin; [`emulate`] runs a [`board`] and reads the [counts](count); [`reference`](mod@reference) renders the same
+//! picture on the host; [`memory`] and [`cycles`] come from the program and from tables; [`frames`] combines them into
+//! a [`row`] per combination; [`report`] and [`table`] print the rows, with the [`ratio`]s of the thesis's table III
+//! and their [`chart`]. [`kernels`] does the same with single operations.
 
 pub mod board;
 pub mod chart;
@@ -21,28 +20,28 @@ pub mod ratio;
 pub mod reference;
 pub mod report;
 pub mod row;
+pub mod source_tree;
 pub mod table;
-pub mod workspace;
 
 use crate::canvas;
 use chart::Chart;
 use emulate::Emulator;
-use frames::{Bench, Named};
+use frames::{Bench, NamedScene};
 use job::MeasureJob;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
-use report::{Report, With};
-use row::Row;
+use report::{MeasureReport, With};
+use row::FrameRow;
+use source_tree::{Program, SourceTree};
 use std::path::PathBuf;
-use workspace::{Program, Workspace};
 
-/// Measure, and tell.
+/// Measures and prints.
 ///
 /// # Errors
-/// When something is missing, a scene is refused, a result cannot be written, or any combination
-/// failed: then all others have been told.
+/// If something is missing, a scene is refused, a result cannot be written, or a combination failed; then the others
+/// are printed first.
 pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.json.iter().chain(&job.csv).chain(&job.chart) {
         output::probe(path)?;
@@ -65,22 +64,22 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
     all_done(report.rows.iter().filter(|row| row.cost.is_none()).count())
 }
 
-/// Measure every combination.
+/// Measures every combination.
 ///
 /// # Errors
-/// When something is missing, a scene is refused, or cargo or the emulator cannot be run. A combination that
-/// fails is a row that says so.
-pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report<Row>, Error> {
-    let root = Workspace::root()?;
+/// If something is missing, a scene is refused, or cargo or the emulator cannot be run. The row of a combination that
+/// fails states why.
+pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<MeasureReport<FrameRow>, Error> {
+    let root = SourceTree::root()?;
     let scenes = frames::scenes(&job.scenes)?.into_iter();
-    let scenes: Vec<Named> = scenes.map(|(_, scene)| scene).collect();
+    let scenes: Vec<NamedScene> = scenes.map(|(_, scene)| scene).collect();
     board::require(&job.boards, &root)?;
-    let workspace = Workspace::open(root)?;
-    let plugin = plugin(&workspace, interrupt)?;
+    let sources = SourceTree::open(root)?;
+    let plugin = plugin(&sources, interrupt)?;
     let progress = Bar::new("measuring");
     progress.start(scenes.len() * job.ariths.len() * job.boards.len());
     let bench = Bench {
-        workspace: &workspace,
+        sources: &sources,
         emulator: &Emulator {
             plugin: &plugin,
             patience: job.patience,
@@ -91,13 +90,13 @@ pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<Report<Row>, E
     };
     let rows = bench.frames(&scenes, job)?;
     drop(progress);
-    Ok(Report {
-        with: With::of(&workspace, &job.boards),
+    Ok(MeasureReport {
+        with: With::of(&sources, &job.boards),
         rows,
     })
 }
 
-/// An error if some of what was to be measured failed.
+/// Returns an error if combinations failed.
 fn all_done(failures: usize) -> Result<(), Error> {
     match failures {
         0 => Ok(()),
@@ -105,18 +104,18 @@ fn all_done(failures: usize) -> Result<(), Error> {
     }
 }
 
-/// Builds the plugin that counts.
+/// Builds the plugin that counts instructions.
 ///
 /// # Errors
 /// If it cannot be built.
-pub fn plugin(workspace: &Workspace, interrupt: &Interrupt) -> Result<PathBuf, Error> {
+pub fn plugin(sources: &SourceTree, interrupt: &Interrupt) -> Result<PathBuf, Error> {
     let program = Program {
         package: "octray-count",
         arguments: &["--release"],
         variables: &[],
         artifact: "octray_count",
     };
-    workspace
+    sources
         .build(&program, interrupt)?
         .map_err(|why| Error::Failed(format!("the emulator's plugin cannot be built: {why}")))
 }

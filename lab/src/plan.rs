@@ -1,11 +1,11 @@
-//! `octray plan`: the least a scene needs on a board, each decision with its reason and with what the next
-//! cheaper choice would cost.
+//! `octray plan`: finds the least that a scene needs on a board. Each decision states its reason and the cost of the
+//! next cheaper choice.
 //!
-//! In the order of the data: a checked [`job`]; [`accuracy`] finds by rendering how many bounces, pixels
-//! per ray and bits the picture needs; [`events`] counts what happens meanwhile, from which the [`model`]
-//! predicts instructions and memory; [`choice`] takes the cheapest arithmetic and tree that fit; and
-//! [`report`] tells it, with a remedy if nothing fits; a [`verify`] measures what came of it. The model is
-//! [fitted](fit) to a [`record`] of measurements, [`comb`]s among them.
+//! In the order of the data: [`job`] is a checked command line; [`accuracy`] finds by rendering how many bounces,
+//! pixels per ray and bits the picture needs; [`events`] counts the events of a frame, from which the [`model`]
+//! predicts instructions and memory; [`choice`] takes the cheapest arithmetic and tree that fit; [`report`] prints the
+//! plan, with a remedy if nothing fits; [`verify`] measures the result. The model is [fitted](fit) to a [`record`] of
+//! measurements, some of which are of [`comb`]s.
 
 pub mod accuracy;
 pub mod choice;
@@ -29,13 +29,13 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_scenes::model::Scene;
-use report::Report;
+use report::PlanReport;
 
-/// Plan, tell, and write the plan down.
+/// Plans, prints, and writes the plan to its file.
 ///
 /// # Errors
-/// When the scene is refused or a file cannot be written; [`Error::Bounds`] when nothing fits, with what
-/// fails by how much and what would fit.
+/// If the scene is refused or a file cannot be written; [`Error::Bounds`] if nothing fits, which states what fails by
+/// how much and what would fit.
 pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.emit {
         output::probe(path)?;
@@ -63,11 +63,11 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     Ok(())
 }
 
-/// The plan of a scene; if it does not fit, with what would.
+/// Returns the plan of a scene; if it does not fit, its failures include options with which it would.
 ///
 /// # Errors
-/// [`Error::Failed`] if no packed tree can hold the scene; [`Error::Interrupted`].
-pub fn plan(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Report, Error> {
+/// [`Error::Failed`] if no compact BVH can hold the scene; [`Error::Interrupted`].
+pub fn plan(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<PlanReport, Error> {
     let plan = |job: &PlanJob| nearest(job, scene, interrupt);
     let mut report = plan(job)?;
     let options = remedy::options(job, &report, plan)?;
@@ -78,12 +78,12 @@ pub fn plan(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Repor
     Ok(report)
 }
 
-/// The plan that fits, or the one that is nearest to it.
-fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Report, Error> {
+/// Returns the plan that fits, or the one that comes closest.
+fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<PlanReport, Error> {
     let scope = Scope {
         scene,
         size: job.size.unwrap_or((scene.width, scene.height)),
-        min_psnr: job.bounds.min_psnr,
+        min_psnr: job.limits.min_psnr,
         interrupt,
     };
     let model = Model::shipped()?;
@@ -94,8 +94,8 @@ fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<Report
     };
     let accuracy = scope.accuracy(job.numbers)?;
     let candidates = chooser.candidates(&accuracy)?;
-    match choose(&candidates, &job.bounds) {
-        None => Ok(Report::inaccurate(job, &accuracy)),
-        Some(chosen) => Report::new(job, &accuracy, &candidates, chosen, &chooser),
+    match choose(&candidates, &job.limits) {
+        None => Ok(PlanReport::inaccurate(job, &accuracy)),
+        Some(chosen) => PlanReport::new(job, &accuracy, &candidates, chosen, &chooser),
     }
 }

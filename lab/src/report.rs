@@ -1,8 +1,8 @@
-//! `octray report`: one page with everything that octray has to show of some scenes.
+//! `octray report`: one page with all results for some scenes.
 //!
-//! Each part is a section of the `page`, in this order: `pictures` in every arithmetic and where they
-//! differ; `costs`, the charts of speed against accuracy; `boards`, table III and sizes from the newest
-//! record of `octray measure`; `limits`, the maps of where methods fail.
+//! Each part is a section of the `page`, in this order: `pictures` in every arithmetic and where they differ; `costs`,
+//! the charts of accuracy against cost; `boards`, table III and sizes from the newest record of `octray measure`;
+//! `limits`, the maps of where methods fail.
 
 mod boards;
 mod costs;
@@ -22,7 +22,7 @@ use page::Section;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// What `octray report` was asked for.
+/// Everything that `octray report` was asked to do.
 #[derive(Clone, Debug)]
 pub struct ReportJob {
     /// The page to write.
@@ -35,15 +35,15 @@ pub struct ReportJob {
     pub chart: ChartJob,
     /// The methods whose limits are shown.
     pub methods: Vec<Method>,
-    /// How many threads measure them.
+    /// The number of threads that measure them.
     pub threads: NonZeroUsize,
 }
 
-/// Render, measure, and write the page.
+/// Renders, measures, and writes the page.
 ///
 /// # Errors
-/// When a scene is refused, the page cannot be written, or the work is interrupted. Where a tool is
-/// missing that counts costs, the page says so.
+/// If a scene is refused, the page cannot be written, or the work is interrupted. If a tool that counts costs is
+/// missing, the page says so.
 pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::probe(&job.output)?;
     let scenes = frames::scenes(&job.chart.scenes)?;
@@ -59,6 +59,6 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();
     output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;
-    let told = format!("{}: {} bytes\n", job.output.display(), page.len());
-    output::write_stdout(interrupt, |out| out.write_all(told.as_bytes()))
+    let summary = format!("{}: {} bytes\n", job.output.display(), page.len());
+    output::write_stdout(interrupt, |out| out.write_all(summary.as_bytes()))
 }

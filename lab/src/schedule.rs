@@ -1,4 +1,4 @@
-//! `octray schedule`: how well a picture is shared, over policies, tiles and numbers of processors.
+//! `octray schedule`: simulates how well processors share a picture, over schedules, tiles and numbers of processors.
 
 mod chart;
 
@@ -20,54 +20,53 @@ use std::io;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
-/// What `octray schedule` was asked for.
+/// Everything that `octray schedule` was asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScheduleJob {
     /// The scene file.
     pub scene: PathBuf,
     /// Numbers of processors.
     pub processors: Vec<NonZeroUsize>,
-    /// Shapes of tiles.
+    /// Sizes of tiles.
     pub shapes: Vec<TileSize>,
-    /// Ways to deal them.
+    /// The schedules.
     pub policies: Vec<Policy>,
     /// What to trace, and with which tree.
     pub settings: RenderSettings,
     /// The machine.
     pub machine: Machine,
-    /// Instructions beside [`Machine::hand_out`] for each pixel of a tile that comes from others.
+    /// Instructions in addition to [`Machine::hand_out`] for each pixel of a tile from a shared queue.
     pub per_pixel: f64,
-    /// Whether tiles come in messages from the first processor ([`Scheduler::in_messages`]).
+    /// Whether tiles are handed out in messages by the first processor ([`Scheduler::in_messages`]).
     pub messages: bool,
     /// Whether to print JSON.
     pub json: bool,
     /// Where to write every combination as CSV.
     pub csv: Option<PathBuf>,
-    /// Where to draw them.
+    /// Where to draw the charts.
     pub chart: Option<PathBuf>,
 }
 
-/// One combination, and what comes of it.
+/// One combination, and its result.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Run {
-    /// Who gets what.
+    /// The schedule.
     pub policy: Policy,
-    /// How large tiles are.
+    /// The size of tiles.
     pub tile: TileSize,
-    /// How many tiles there are.
+    /// The number of tiles.
     pub tiles: usize,
-    /// How many processors.
+    /// The number of processors.
     pub processors: NonZeroUsize,
-    /// What comes of it.
+    /// The result.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// Simulate every combination, and print them or the best.
+/// Simulates every combination, and prints all of them or the best.
 ///
 /// # Errors
-/// When the scene is refused or does not fit the arithmetic, when interrupted, or when standard output cannot
-/// be written.
+/// If the scene is refused or does not fit the arithmetic, on an interrupt, or if standard output cannot be written.
 pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.csv.iter().chain(&job.chart) {
         output::probe(path)?;
@@ -98,7 +97,7 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
     })
 }
 
-/// Simulate every combination.
+/// Simulates every combination.
 fn sweep(
     job: &ScheduleJob,
     map: &CostMap,
@@ -133,7 +132,7 @@ fn sweep(
     Ok(runs)
 }
 
-/// One line for each combination.
+/// Writes one line per combination.
 fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record([
@@ -167,13 +166,13 @@ fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
     csv.flush()
 }
 
-/// The run of the highest speed-up among those that fit; among equals the first.
+/// Returns the run with the highest speed-up among those that fit; of equal ones the first.
 fn best(runs: &[Run], fits: impl Fn(&Run) -> bool) -> Option<&Run> {
     let runs = runs.iter().filter(|run| fits(run)).rev();
     runs.max_by(|a, b| f64::total_cmp(&a.outcome.speed_up, &b.outcome.speed_up))
 }
 
-/// For each number of processors the best speed-up of each policy, in strips and in tiles, and the tile.
+/// Formats a table: per number of processors the best speed-up of each schedule, in strips and in tiles, and the size.
 fn table(job: &ScheduleJob, runs: &[Run]) -> Table {
     let mut table = Table::new();
     let names = job.policies.iter().map(|policy| policy.name());

@@ -1,52 +1,52 @@
-//! A discrete-event simulation of processors that work on tiles: the very dealing that threads get
-//! ([`octray_render::scheduler`]), on as many processors as wanted.
+//! A discrete-event simulation of processors that work on tiles. It uses the same scheduler as threads
+//! ([`octray_render::scheduler`]), with any number of processors.
 
 use octray_render::scheduler::Scheduler;
 use serde::Serialize;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Instructions that each tile costs its thread beyond its pixels: those that Callgrind counts of a picture in tiles of
-/// one pixel beyond the same in whole rows.
+/// Instructions that each tile costs its thread beyond its pixels: Callgrind's count for a picture in tiles of one
+/// pixel, minus that for the same picture in whole rows.
 pub const PER_TILE: f64 = 1300.0;
 
-/// Instructions that a thread could do while a tile that is handed out to it keeps the others from theirs: 11 ns, as two
-/// threads took that did nothing but draw tiles.
+/// Instructions that a thread could execute while handing out a tile blocks the others: 11 ns, measured with two
+/// threads that did nothing but take tiles.
 pub const HAND_OUT: f64 = 100.0;
 
 /// A parallel machine. Costs and times are in instructions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Machine {
-    /// For how long a tile that comes from others keeps them from handing out another one.
+    /// How long handing out a tile from a shared queue blocks other hand-outs.
     pub hand_out: f64,
-    /// By how much each further busy processor slows all of them, as on a bus: of `n` each runs at
-    /// 1 / (1 + contention · (n − 1)).
+    /// The relative slowdown of all processors per further busy processor, as on a bus: each of `n` runs at 1 / (1 +
+    /// contention · (n − 1)).
     pub contention: f64,
     /// Work that only one processor can do, before the others begin (Amdahl).
     pub serial: f64,
 }
 
-/// What came of it.
+/// The result of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Outcome {
-    /// From the begin of the serial work to the end of the last tile.
+    /// Time from the begin of the serial work to the end of the last tile.
     pub time: f64,
-    /// How many times faster than one processor, which needs no hand-outs.
+    /// Speed-up over one processor, which needs no hand-outs.
     pub speed_up: f64,
     /// Speed-up per processor.
     pub efficiency: f64,
 }
 
-/// Lets the processors of a fresh deal work on tiles that cost what is given.
+/// Simulates the processors of a new scheduler working on tiles with the given costs.
 ///
-/// Until the first processor finds nothing left, all are busy and equally slow; so the events are found in the
+/// Until the first processor finds no tile, all are busy and equally slow. Therefore events are computed in the
 /// processors' own time, which contention stretches afterwards.
 pub fn simulate(costs: &[f64], deal: &Scheduler, machine: &Machine) -> Outcome {
     simulate_messages(costs, deal, machine, |_| 0.0)
 }
 
-/// The same where a tile that comes from others keeps them for longer than [`Machine::hand_out`]: by what
-/// `more` says of its number.
+/// The same, but handing out a tile from a shared queue takes `more` of its number in addition to
+/// [`Machine::hand_out`].
 pub fn simulate_messages(
     costs: &[f64],
     deal: &Scheduler,
@@ -69,7 +69,7 @@ pub fn simulate_messages(
         let cost = costs.get(dealt.tile).copied().unwrap_or_default();
         free.push(Reverse(Event(now + cost, processor)));
     }
-    // In the order of time, for the heap gives no earlier event after a later one.
+    // Sorted by time, because the heap returns no earlier event after a later one.
     let mut parallel = 0.0;
     let mut since = 0.0;
     for (done, end) in ends.iter().enumerate() {
@@ -87,7 +87,7 @@ pub fn simulate_messages(
     }
 }
 
-/// When a processor becomes free. At the same time the first processor comes first.
+/// When a processor becomes free. Of simultaneous events, that of the first processor comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Event(f64, usize);
 
@@ -139,8 +139,8 @@ mod tests {
     }
 
     #[test]
-    fn each_policy_ends_when_it_does_by_hand() {
-        // The dear tiles come last.
+    fn each_policy_ends_when_computed_by_hand() {
+        // The expensive tiles come last.
         let costs = [1.0, 1.0, 1.0, 1.0, 4.0, 4.0];
         for (policy, time) in [
             (Policy::Prescheduled, 9.0),
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn no_policy_beats_the_bounds() {
+    fn no_policy_beats_the_lower_bounds() {
         let costs: Vec<f64> = (0..97).map(|i| f64::from(i * i % 31)).collect();
         let sum: f64 = costs.iter().sum();
         let largest = costs.iter().copied().fold(0.0, f64::max);
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn serial_work_bounds_the_speed_up_as_amdahl_has_it() {
+    fn serial_work_limits_the_speed_up_by_amdahls_law() {
         let machine = Machine {
             serial: 100.0,
             ..Machine::default()
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn hand_outs_queue_up_and_only_where_tiles_are_shared() {
+    fn hand_outs_queue_only_for_shared_tiles() {
         let machine = Machine {
             hand_out: 2.0,
             ..Machine::default()
@@ -199,19 +199,19 @@ mod tests {
     }
 
     #[test]
-    fn each_tile_takes_its_own_time_to_hand_out() {
+    fn each_tile_has_its_own_hand_out_time() {
         let deal = Scheduler::new(Policy::Dynamic, 2, NonZeroUsize::new(2).unwrap(), vec![]);
         let machine = Machine {
             hand_out: 1.0,
             ..Machine::default()
         };
         let outcome = simulate_messages(&[10.0; 2], &deal, &machine, |tile| tile as f64);
-        // The second one waits for a hand-out of 1, and its own takes 2.
+        // The second processor waits for a hand-out of 1; its own takes 2.
         assert_eq!(outcome.time, 13.0);
     }
 
     #[test]
-    fn messages_queue_up_whatever_the_policy() {
+    fn messages_queue_with_every_policy() {
         let machine = Machine {
             hand_out: 2.0,
             ..Machine::default()
@@ -219,7 +219,7 @@ mod tests {
         for policy in Policy::VARIANTS {
             let deal = Scheduler::new(*policy, 4, NonZeroUsize::new(4).unwrap(), vec![]);
             let outcome = simulate(&[10.0; 4], &deal.in_messages(), &machine);
-            // The first processor's tile is no message.
+            // The first processor's tile needs no message.
             assert_eq!(outcome.time, 16.0, "{policy:?}");
         }
     }
@@ -230,7 +230,7 @@ mod tests {
             contention: 0.5,
             ..Machine::default()
         };
-        // Both busy for 2 at 2/3 of the speed, then one alone for 4.
+        // Both are busy for 2 at 2/3 of the speed, then one works alone for 4.
         assert_eq!(run(&[2.0, 6.0], Policy::Static, 2, machine).time, 7.0);
         assert_eq!(
             run(&[4.0; 2], Policy::Static, 2, machine).speed_up,

@@ -1,4 +1,4 @@
-//! `octray stability`: where methods hold, degrade and break, as a table, as data and as maps.
+//! `octray stability`: shows where methods hold, degrade and break, as a table, as data and as maps.
 
 mod data;
 pub(crate) mod map;
@@ -18,7 +18,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// Which methods to look at, and what to tell of them.
+/// The methods to examine, and the results to write.
 #[derive(Clone, Debug)]
 pub struct StabilityJob {
     /// The methods.
@@ -29,16 +29,16 @@ pub struct StabilityJob {
     pub json: Option<PathBuf>,
     /// Where to write everything as CSV.
     pub csv: Option<PathBuf>,
-    /// The arithmetics, by their numbers, whose limits to tell in one table for all methods.
+    /// The arithmetics, by their numbers, whose limits are printed in one table for all methods.
     pub overview: Option<Vec<usize>>,
-    /// How many threads measure.
+    /// The number of threads.
     pub threads: NonZeroUsize,
 }
 
-/// Measure, tell the limits on standard output, and write what else is asked for.
+/// Measures, prints the limits, and writes the requested files.
 ///
 /// # Errors
-/// When something cannot be written or drawn, or the work is interrupted.
+/// If something cannot be written or drawn, or the work is interrupted.
 pub fn run(job: &StabilityJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(folder) = &job.folder {
         fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;

@@ -1,9 +1,9 @@
-//! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its figures.
+//! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its numbers.
 //!
-//! In the order of the data: a [`subject`] in a variant is a trial, which the [`runs`] traces. Of what it counts
-//! [`traced`] makes tables I, II (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`;
-//! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s figures,
-//! and a [`text`]; VIII and IX become [`chart`]s, too.
+//! In the order of the data: [`runs`] traces variants of a [`subject`]. From the counts, [`traced`] makes tables I, II
+//! (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`; [`shared`]
+//! simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`];
+//! VIII and IX also become [`chart`]s.
 
 pub mod agreement;
 pub mod chart;
@@ -21,7 +21,7 @@ pub mod traced;
 
 use crate::canvas;
 use chart::Chart;
-use number::Number;
+use number::TableNumber;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
@@ -33,22 +33,22 @@ use std::{fs, io};
 use table::Table;
 use thesis::Thesis;
 
-/// What `octray tables` was asked for.
+/// Everything that `octray tables` was asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TablesJob {
-    /// Which tables, each once.
-    pub tables: Vec<Number>,
+    /// The tables, without duplicates.
+    pub tables: Vec<TableNumber>,
     /// Columns and rows of the pictures; the scenes' own if `None`.
     pub size: Option<(u32, u32)>,
-    /// Whether to take the time of tracing.
+    /// Whether to measure the time of tracing.
     pub time: bool,
-    /// The thesis's figures; those that come with octray if `None`.
+    /// The file of the thesis's numbers; those that come with octray if `None`.
     pub thesis: Option<PathBuf>,
     /// The record of table III; the newest that comes with octray if `None`.
     pub record: Option<PathBuf>,
-    /// What is simulated for tables VIII and IX.
+    /// The simulation of tables VIII and IX.
     pub simulation: Simulation,
-    /// Whether to tell them as JSON.
+    /// Whether to print JSON.
     pub json: bool,
     /// The file to write; standard output if `None`.
     pub output: Option<PathBuf>,
@@ -56,10 +56,10 @@ pub struct TablesJob {
     pub charts: Option<PathBuf>,
 }
 
-/// Make the tables, and tell them.
+/// Makes the tables, and prints them.
 ///
 /// # Errors
-/// When a file cannot be read, is not of the form, or cannot be written; when interrupted.
+/// If a file cannot be read, has the wrong form, or cannot be written; on an interrupt.
 pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
@@ -68,7 +68,7 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
         fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
     }
     let tables = make(job, interrupt)?;
-    let tell = |out: &mut dyn io::Write| match job.json {
+    let print = |out: &mut dyn io::Write| match job.json {
         true => {
             serde_json::to_writer_pretty(&mut *out, &tables)?;
             writeln!(out)
@@ -79,18 +79,22 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
         }
     };
     match &job.output {
-        Some(path) => output::write_file(path, interrupt, tell),
-        None => output::write_stdout(interrupt, tell),
+        Some(path) => output::write_file(path, interrupt, print),
+        None => output::write_stdout(interrupt, print),
     }
 }
 
-/// Makes the tables, and draws those that are charts, too.
+/// Makes the tables, and draws the charts of some.
 fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     let thesis = Thesis::read(job.thesis.as_deref())?;
     let runs = Runs::new(job.size, job.time, interrupt);
     let progress = Bar::new("tracing");
     progress.start(job.tables.len());
-    let figures = match job.tables.iter().any(|number| *number >= Number::Eight) {
+    let figures = match job
+        .tables
+        .iter()
+        .any(|number| *number >= TableNumber::Eight)
+    {
         true => Figure::all(&runs)?,
         false => Vec::new(),
     };
@@ -98,14 +102,14 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     let mut tables = Vec::new();
     for number in &job.tables {
         let draft = match number {
-            Number::One => traced::one(&runs)?,
-            Number::Two => traced::two(&runs, &thesis)?,
-            Number::Three => emulated::three(job.record.as_deref())?,
-            Number::Four => traced::four(&runs)?,
-            Number::Five => traced::five(&runs, &thesis)?,
-            Number::Six => traced::six(&runs)?,
-            Number::Seven => traced::seven(&runs)?,
-            Number::Eight => {
+            TableNumber::One => traced::one(&runs)?,
+            TableNumber::Two => traced::two(&runs, &thesis)?,
+            TableNumber::Three => emulated::three(job.record.as_deref())?,
+            TableNumber::Four => traced::four(&runs)?,
+            TableNumber::Five => traced::five(&runs, &thesis)?,
+            TableNumber::Six => traced::six(&runs)?,
+            TableNumber::Seven => traced::seven(&runs)?,
+            TableNumber::Eight => {
                 let outcomes = Outcomes::by_rows(&figures, simulation);
                 draw(
                     job,
@@ -115,7 +119,7 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
                 )?;
                 shared::eight(&outcomes, simulation)
             }
-            Number::Nine => {
+            TableNumber::Nine => {
                 let outcomes = Outcomes::by_processors(&figures, simulation);
                 draw(
                     job,
@@ -132,7 +136,7 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     Ok(tables)
 }
 
-/// Draws a chart if charts are asked for.
+/// Draws a chart if charts are requested.
 fn draw(
     job: &TablesJob,
     name: &str,

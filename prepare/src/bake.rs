@@ -1,8 +1,8 @@
-//! Baking: a scene, its tree and its picture as Rust source of constant tables, to be compiled
-//! into a program that has neither files nor an allocator, and left in flash.
+//! Baking: writes a scene, its tree and its picture as Rust source of constant tables, which stay in flash. The program
+//! needs neither files nor an allocator.
 //!
-//! Numbers are written as the bit patterns of the format, so nothing is rounded on the way: the
-//! baked scene gives the same picture, byte for byte, as the scene it was baked from.
+//! Numbers are written as bit patterns of the format, so nothing is rounded: the baked scene gives the same picture,
+//! byte for byte, as the scene it was baked from.
 //!
 //! The source names `octray_core` and no other crate. It declares
 //!
@@ -11,10 +11,10 @@
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
 //! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
 //! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
-//! | `MAX_DEPTH`, `CUT_OFF` | how far rays are followed |
-//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | what its memory has to be dimensioned for |
-//! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: the words it takes, and how it is built |
-//! | `NAME`, `ARITH` | the scene and the format, to be told |
+//! | `MAX_DEPTH`, `CUT_OFF` | the limits for following rays |
+//! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | the sizes that its memory depends on |
+//! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: its size in words, and how it is built |
+//! | `NAME`, `ARITH` | the names of the scene and the format, for output |
 
 mod source;
 
@@ -33,26 +33,26 @@ use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use thiserror::Error;
 
-/// What is baked beside the scene.
+/// What to bake, beside the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeOptions<'a> {
-    /// The scene's name, to be printed by the program.
+    /// The scene's name, for the program's output.
     pub name: &'a str,
-    /// Arithmetic, tree and picture. The tree is [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; `max_depth` bounds
-    /// how often a ray bounces.
+    /// Arithmetic, tree and picture. The tree is [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; `max_depth` limits
+    /// the bounces of a ray.
     pub settings: RenderSettings,
-    /// Whether the device builds the tree in its own memory; how much it takes is found out beforehand.
+    /// Whether the device builds the tree in its own memory; its size is computed while baking.
     pub on_device: bool,
-    /// The triple of the target, e.g. `thumbv6m-none-eabi`, which decides the leaf size where the settings do not.
+    /// The target's triple, e.g. `thumbv6m-none-eabi`; it decides the leaf size unless the settings do.
     pub target: Option<&'a str>,
-    /// Room for so many queued rays, where that is known to do; otherwise as many as the scene's surfaces can
-    /// make wait.
+    /// The capacity for queued rays, if it is known to be enough; `None` takes the maximum that the scene's surfaces
+    /// can queue.
     pub rays: Option<usize>,
 }
 
 impl<'a> BakeOptions<'a> {
-    /// The scene called `name`, rendered with these settings: a tree that is built beforehand, for a target on which hit
-    /// tests cost little.
+    /// Returns options for a scene called `name` with these settings: the tree is built while baking, for a target on
+    /// which hit tests are cheap.
     pub const fn new(name: &'a str, settings: RenderSettings) -> Self {
         Self {
             name,
@@ -69,17 +69,17 @@ impl<'a> BakeOptions<'a> {
 pub struct Baked {
     /// Rust source.
     pub source: String,
-    /// The format; the one that `auto` has chosen.
+    /// The format; for `auto` the one that was chosen.
     pub format: Format,
     /// The features that the scene uses.
     pub features: FeatureSet,
-    /// Bytes of the tables, links and nodes included, on a target of 32 bits.
+    /// Bytes of the tables, including links and nodes, on a 32-bit target.
     pub bytes: usize,
-    /// How many rays can wait at once.
+    /// The maximum number of queued rays.
     pub rays: usize,
-    /// Words of the tree, wherever it is built.
+    /// Words of the tree, whether it is baked or built by the device.
     pub words: usize,
-    /// How many of its nodes can wait at once, at the most.
+    /// The maximum number of nodes on the traversal stack.
     pub nodes: usize,
 }
 
@@ -87,21 +87,21 @@ pub struct Baked {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BakeError {
-    /// Targets have no such tree.
+    /// The target supports no such tree.
     #[error("targets have the tree compact-bvh8 or none, not {}", .0.name())]
     Tree(TreeKind),
     /// The scene does not fit the format.
     #[error("{0}")]
     Overflow(Overflow),
-    /// A packed tree has no place for so many objects.
-    #[error("a packed tree holds at most 32767 objects")]
+    /// A compact BVH cannot hold that many objects.
+    #[error("a compact BVH holds at most 32767 objects")]
     TooMany,
 }
 
 /// Bakes a scene.
 ///
 /// # Errors
-/// If the scene does not fit the format or the tree, or targets have no such tree.
+/// If the scene does not fit the format or the tree, or targets support no such tree.
 pub fn bake(scene: &Scene, options: &BakeOptions<'_>) -> Result<Baked, BakeError> {
     struct Task<'a>(&'a Scene, &'a BakeOptions<'a>, Format);
     impl InFormat for Task<'_> {
@@ -144,7 +144,7 @@ fn bake_as<S: Prepare>(
             )
         }
         (TreeKind::CompactBvh8, true) => {
-            // The device finds the objects in the order of the file.
+            // The device receives the objects in the order of the file.
             let words = grow(&mut prepared.scene.clone())?.words.len();
             (source::Tree::Device(words, growth), every)
         }
@@ -171,7 +171,7 @@ fn bake_as<S: Prepare>(
     })
 }
 
-/// What the tracer has to be able to do for a scene that is followed for `max_depth` bounces.
+/// Returns the features that the tracer needs for a scene with up to `max_depth` bounces.
 fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet {
     let scene = &prepared.scene;
     let shapes = scene.shapes();
@@ -211,8 +211,8 @@ fn used_surfaces<S: Literal>(prepared: &Prepared<S>) -> Vec<Surface<S>> {
         .collect()
 }
 
-/// How many rays can wait at once. A surface that only reflects leaves one, taken up at once; one
-/// that also transmits leaves one more at each bounce.
+/// Returns the maximum number of queued rays. A surface that only reflects queues one, which is traced next; one that
+/// also transmits adds one per bounce.
 fn room<S: Scalar + Literal>(
     surfaces: &[Surface<S>],
     features: FeatureSet,
@@ -228,7 +228,7 @@ fn room<S: Scalar + Literal>(
             let share = (surfaces.iter())
                 .map(|s| s.reflect.to_f64().max(s.refract.to_f64()))
                 .fold(0.0, f64::max);
-            // Shares may come out a little heavier for rounding.
+            // Rounding may make weights slightly larger.
             let mut weight = 1.001;
             let mut bounces = 0;
             while bounces < options.settings.max_depth && weight * share >= options.settings.cut_off

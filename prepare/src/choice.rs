@@ -1,22 +1,22 @@
-//! Names of what is chosen from a fixed list, for command lines, messages and files.
+//! Names of the values of fixed lists, for command lines, messages and files.
 
 use strum::{EnumMessage, VariantArray};
 
-/// One of a fixed list of values that have names.
+/// A value of a fixed list whose values have names.
 pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
-    /// All values, in the order in which help lists them.
+    /// Returns all values, in the order in which help lists them.
     fn all() -> Vec<Self>;
 
-    /// The name.
+    /// Returns the name.
     fn name(self) -> &'static str;
 
-    /// All names that are understood, [`Choice::name`] included.
+    /// Returns all accepted names, including [`Choice::name`].
     fn names(self) -> Vec<&'static str>;
 
-    /// What it is, in one line.
+    /// Describes the value in one line.
     fn help(self) -> &'static str;
 
-    /// The value of that name, if there is one.
+    /// Returns the value of that name, if there is one.
     fn named(name: &str) -> Option<Self> {
         Self::all()
             .into_iter()

@@ -1,4 +1,4 @@
-//! From the name of a format to its type.
+//! Converts the name of a format into its type.
 
 use crate::format::{Arith, Format};
 use crate::limits::limits;
@@ -7,17 +7,17 @@ use crate::saturation::PerThread;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_scenes::model::Scene;
 
-/// Something to be done in a format that is chosen at run time.
+/// A task that runs in a format chosen at run time.
 pub trait InFormat {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Does it in format `S`.
+    /// Runs the task in format `S`.
     fn run<S: Prepare>(self) -> Self::Output;
 }
 
 impl Format {
-    /// Does something in this format. Only here do names become types.
+    /// Runs a task in this format. This is the only place where names become types.
     pub fn dispatch<T: InFormat>(self, task: T) -> T::Output {
         match self {
             Self::F64 => task.run::<f64>(),
@@ -40,7 +40,7 @@ impl Format {
         }
     }
 
-    /// Bits behind the point, for fixed-point formats.
+    /// Returns the number of fraction bits of a fixed-point format.
     pub fn fraction_bits(self) -> Option<u32> {
         struct Bits;
         impl InFormat for Bits {
@@ -54,8 +54,9 @@ impl Format {
 }
 
 impl Arith {
-    /// The format that a scene is traced in, with at most `max_depth` bounces. [`Arith::Auto`] becomes the finest
-    /// format of [`Format::AUTOMATIC`] that the scene cannot overflow; the last one if there is none.
+    /// Returns the format in which a scene is traced with at most `max_depth` bounces. For [`Arith::Auto`] it is the
+    /// finest format of [`Format::AUTOMATIC`] that the scene cannot overflow, or the last one if every format could
+    /// overflow.
     pub fn format(self, scene: &Scene, max_depth: u32) -> Format {
         struct Fits<'a>(&'a Scene, u32);
         impl InFormat for Fits<'_> {
@@ -80,7 +81,7 @@ mod tests {
     use strum::VariantArray;
 
     #[test]
-    fn a_format_has_the_name_that_its_type_has() {
+    fn a_format_has_the_name_of_its_type() {
         struct Name;
         impl InFormat for Name {
             type Output = &'static str;

@@ -1,11 +1,11 @@
-//! The number formats: the one list of them. [`crate::dispatch`] leads from a name to a type.
+//! The list of number formats. [`crate::dispatch`] converts a name into a type.
 
 use crate::choice::Choice;
 use serde::{Deserialize, Serialize, de};
 use std::fmt;
 use strum::{EnumMessage, IntoStaticStr, VariantArray};
 
-/// A number format that a picture is traced in.
+/// A number format in which pictures are traced.
 #[derive(
     Clone,
     Copy,
@@ -28,9 +28,9 @@ pub enum Format {
     F32,
     /// 32-bit floats with approximate roots and reciprocals.
     Approx0,
-    /// The same, made better by one Newton step.
+    /// The same, improved by one Newton step.
     Approx1,
-    /// The same, made better by two Newton steps.
+    /// The same, improved by two Newton steps.
     Approx2,
     /// 32-bit fixed point with 8 fraction bits.
     I24F8,
@@ -58,7 +58,7 @@ pub enum Format {
     I32F32,
 }
 
-/// What kind of numbers a format has.
+/// The kind of numbers of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Floats.
@@ -72,7 +72,7 @@ pub enum Family {
 }
 
 impl Format {
-    /// The 32-bit fixed-point formats of [`Arith::STANDARD`], the finest first: what `auto` chooses from.
+    /// The 32-bit fixed-point formats of [`Arith::STANDARD`], the finest first: `auto` chooses one of them.
     pub const AUTOMATIC: [Self; 6] = [
         Self::I4F28,
         Self::I8F24,
@@ -82,12 +82,12 @@ impl Format {
         Self::I24F8,
     ];
 
-    /// Its name on the command line, in files and in statistics.
+    /// Returns its name on the command line, in files and in statistics.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// What kind of numbers it has.
+    /// Returns the kind of its numbers.
     pub const fn family(self) -> Family {
         match self {
             Self::F64 | Self::F32 => Family::Float,
@@ -104,7 +104,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// The arithmetic that is asked for: a format, or the one that suits the scene.
+/// The requested arithmetic: a format, or the one that suits the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Arith {
     /// The finest format of [`Format::AUTOMATIC`] that the scene cannot overflow.
@@ -139,7 +139,7 @@ impl Arith {
     /// [`Format::I32F32`].
     pub const I32F32: Self = Self::In(Format::I32F32);
 
-    /// The formats that charts and reports compare: one of each step of four fraction bits.
+    /// The formats that charts and reports compare; of 32-bit fixed point, one in four fraction bits.
     pub const STANDARD: [Self; 12] = [
         Self::F64,
         Self::F32,
@@ -155,7 +155,7 @@ impl Arith {
         Self::I32F32,
     ];
 
-    /// Its name on the command line, in files and in statistics.
+    /// Returns its name on the command line, in files and in statistics.
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -163,7 +163,7 @@ impl Arith {
         }
     }
 
-    /// Its name, and the number format that was used where that is another: `auto: i8f24`.
+    /// Returns its name, with the format that was used if it differs: `auto: i8f24`.
     pub fn with_format(self, used: Option<Format>) -> String {
         match used {
             Some(format) if Self::In(format) != self => format!("{}: {format}", self.name()),
@@ -206,14 +206,14 @@ impl Choice for Arith {
     }
 }
 
-/// By name.
+/// Serialises by name.
 impl Serialize for Arith {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
     }
 }
 
-/// By name.
+/// Deserialises by name.
 impl<'de> Deserialize<'de> for Arith {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = String::deserialize(deserializer)?;

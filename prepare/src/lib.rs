@@ -1,21 +1,21 @@
-//! From a parsed scene to what octray traces.
+//! Prepares a parsed scene for tracing.
 //!
 //! The modules, in the order of the data:
 //!
 //! | module | does |
 //! | --- | --- |
-//! | [`settings`] | what there is to choose, with its defaults: [`RenderSettings`] |
-//! | [`mod@format`], [`dispatch`] | the one list of number formats, and the way from a name to a type |
-//! | [`limits`] | what cannot be scaled: bounds of all values, so that nothing overflows |
-//! | [`mod@quantise`] | a scene in the numbers of one format, placed and scaled |
-//! | [`saturation`] | counts saturations of fixed point, by thread |
-//! | [`tree`] | trees of a quantised scene, in memory of their own |
-//! | [`mod@prepare`] | quantising and building trees, compiled once for each format |
-//! | [`target`] | what a target's core is good at, as far as it decides which tree is best |
-//! | [`plan`] | what is chosen about a scene before it is baked, and the file that carries it |
-//! | [`mod@bake`] | a scene, its tree and its picture as Rust source, for targets without files |
-//! | [`literal`] | numbers of every format as Rust source |
-//! | [`choice`] | names of what is chosen from a list |
+//! | [`settings`] | the settings of a rendering, with their defaults: [`RenderSettings`] |
+//! | [`mod@format`], [`dispatch`] | the list of number formats, and the conversion of a name into a type |
+//! | [`limits`] | bounds of values that cannot be scaled, so that nothing overflows |
+//! | [`mod@quantise`] | places and scales a scene in the numbers of one format |
+//! | [`saturation`] | counts saturations of fixed point per thread |
+//! | [`tree`] | builds trees of a quantised scene in heap memory |
+//! | [`mod@prepare`] | instantiates quantising and building trees once per format |
+//! | [`target`] | the cost of hit tests on a target, which decides how trees are built |
+//! | [`plan`] | the settings that are chosen before a scene is baked, and their file |
+//! | [`mod@bake`] | writes a scene, its tree and its picture as Rust source, for targets without a file system |
+//! | [`literal`] | writes numbers of every format as Rust source |
+//! | [`choice`] | names of the values of fixed lists |
 
 pub mod bake;
 pub mod choice;

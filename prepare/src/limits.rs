@@ -1,11 +1,11 @@
-//! What cannot be scaled: light, coefficients, refraction indices. Interval bounds over the scene
-//! say how large they and all that is computed from them can become.
+//! Checks values that cannot be scaled: light, coefficients, refraction indices. Interval bounds over the scene limit
+//! these values and everything computed from them.
 
 use octray_core::quantize::Quantize;
 use octray_scenes::model::Scene;
 use thiserror::Error;
 
-/// Why a format cannot have a scene.
+/// Why a scene does not fit a format.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Overflow {
     /// A value that the format cannot hold.
@@ -15,34 +15,34 @@ pub enum Overflow {
         format: &'static str,
         /// What would overflow.
         what: String,
-        /// How large it can become.
+        /// The largest possible value.
         value: f64,
-        /// What the format holds.
+        /// The limit of the format's numbers.
         limit: f64,
     },
-    /// A surface that lets more light through than it gets: only floats take that, whose own light is then
-    /// less than none.
+    /// A surface that transmits more light than it receives. Only floats support that, because the share that remains
+    /// for the surface's own light is negative.
     #[error("{format} takes transmitted shares up to 1, but that of surface {surface} is {share}")]
     Share {
         /// The format's name.
         format: &'static str,
-        /// The surface, the first being 1.
+        /// The surface, counted from 1.
         surface: usize,
         /// Its share.
         share: f64,
     },
 }
 
-/// How large something can become that is computed from a scene's colours and coefficients.
+/// A bound of a value that is computed from a scene's colours and coefficients.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// What.
+    /// The name of the value.
     pub what: String,
-    /// How large, at most.
+    /// The bound.
     pub value: f64,
 }
 
-/// The bounds of all that cannot be scaled, for rays that bounce at most `max_depth` times.
+/// Returns bounds of all values that cannot be scaled, for rays with at most `max_depth` bounces.
 pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
     let mut bounds = Vec::new();
     let mut bound = |value, what| bounds.push(Bound { what, value });
@@ -66,16 +66,16 @@ pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
         let share = surface.reflect.max(surface.refract);
         let weight = share.max(1.0).powi(max_depth.min(1000) as i32);
         bound(weight, name("the weight of reflected rays"));
-        // A contribution is at most this before it is added up and clamped.
+        // The most that a contribution can be before it is added and clamped.
         bound(weight * largest(lit), name("the reflected light"));
     }
     bounds
 }
 
-/// Checks that nothing that is computed from the scene's colours and coefficients overflows.
+/// Checks that no value that is computed from the scene's colours and coefficients overflows.
 ///
 /// # Errors
-/// The first value that would.
+/// The first value that would overflow.
 pub fn limits<S: Quantize>(scene: &Scene, max_depth: u32) -> Result<(), Overflow> {
     let (format, limit) = (S::NAME, S::MAX.to_f64());
     for Bound { what, value } in bounds(scene, max_depth) {

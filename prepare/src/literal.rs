@@ -1,25 +1,25 @@
-//! Numbers of every format as Rust source.
+//! Writes numbers of every format as Rust source.
 
 use octray_core::quantize::Quantize;
 use octray_core::scalar::SaturationCounter;
 use octray_core::scalar::{Approx, Fixed, Fixed64, Reciprocal};
 
-/// A format whose numbers can be written down.
+/// A format whose numbers can be written as source.
 pub trait Literal: Quantize {
-    /// The format's type, inside `use octray_core::scalar`.
+    /// The format's type, within `use octray_core::scalar`.
     fn type_name() -> String;
     /// The type of a bit pattern.
     const RAW: &'static str;
-    /// A number from the bit pattern `raw`, in constant context.
+    /// The function that makes a number from the bit pattern `raw` in a constant.
     const FROM_RAW: &'static str;
-    /// The bit pattern.
+    /// Returns the bit pattern.
     fn raw(self) -> String;
-    /// A reciprocal, in constant context.
+    /// Returns the source of a reciprocal in a constant.
     fn reciprocal_source(reciprocal: Self::Reciprocal) -> String;
 }
 
 impl<const F: u32, C: SaturationCounter> Literal for Fixed<F, C> {
-    // Saturations are proved not to happen: nothing is checked on the target.
+    // Preparation proves that nothing saturates, so the target checks nothing.
     fn type_name() -> String {
         format!("scalar::Fixed<{F}>")
     }

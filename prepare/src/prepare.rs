@@ -1,7 +1,7 @@
-//! What is much code and differs in every format, compiled here, once for each of them.
+//! Large functions that differ for every format, instantiated here once per format.
 //!
-//! A generic function is compiled anew in every crate that uses it. These are not generic, so a format costs rendering,
-//! baking and the laboratory together what it costs one of them.
+//! A generic function is compiled again in every crate that uses it. These functions are not generic, so rendering,
+//! baking and the laboratory share one copy per format.
 
 use crate::limits::Overflow;
 use crate::literal::Literal;
@@ -13,18 +13,18 @@ use octray_core::accel::{BuildError, BuildStats, LinkBy, OctreeVariant};
 use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_scenes::model::Scene;
 
-/// A format of [`crate::Format`], with what prepares scenes in it.
+/// A format of [`crate::Format`], with the functions that prepare scenes in it.
 pub trait Prepare: Literal {
     /// [`quantise::quantise`] in this format.
     ///
     /// # Errors
-    /// As there.
+    /// Those of that function.
     fn quantised(scene: &Scene, settings: &RenderSettings) -> Result<Prepared<Self>, Overflow>;
 
     /// [`quantise::resolution`] in this format.
     ///
     /// # Errors
-    /// As there.
+    /// Those of that function.
     fn resolution(scene: &Scene, settings: &RenderSettings) -> Result<(), TooFine>;
 
     /// [`OwnedBvh8::build`] in this format.
@@ -33,7 +33,7 @@ pub trait Prepare: Literal {
     /// [`OwnedCompactBvh8::build`] in this format.
     ///
     /// # Errors
-    /// As there.
+    /// Those of that function.
     fn compact_bvh8(
         scene: &mut Quantised<Self>,
         growth: &Growth,

@@ -1,12 +1,11 @@
-//! From the parsed scene to one arithmetic: where the scene is put, how it is scaled, and whether
-//! it fits.
+//! Converts a parsed scene to one arithmetic: places it, scales it, and checks that it fits.
 //!
-//! The scene is moved and scaled by a power of two. For floating point the middle of the objects
-//! becomes the origin, where numbers are finest, and the diagonal 1 to 2. For fixed point the
-//! middle of everything, lights and viewpoint included, becomes the origin, and the diagonal as
-//! large as the format holds, so that every coordinate, distance and difference of points fits. What cannot be
-//! scaled (colours, refraction indices) is bounded by [`limits`]; if it does not fit, the value
-//! that would overflow is named. [`fn@resolution`] tells what a format is too coarse for.
+//! The scene is moved and scaled by a power of two. In floating point, the middle of the objects becomes the origin,
+//! where numbers are finest, and the diagonal becomes 1 to 2. In fixed point, the middle of everything, including
+//! lights and viewpoint, becomes the origin, and the diagonal becomes as large as the format allows for every
+//! coordinate, distance and difference of points to fit. Values that cannot be scaled (colours, refraction indices) are
+//! checked by [`limits`], which names the value that would overflow. [`fn@resolution`] reports what a format is too
+//! coarse for.
 
 mod camera;
 mod extent;
@@ -27,7 +26,7 @@ use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere,
 use octray_core::vec3::Vec3;
 use octray_scenes::model;
 
-/// Where a scene lies in the numbers of a format: number = (coordinate − centre) · 2^exponent.
+/// The place of a scene in the numbers of a format: number = (coordinate − centre) · 2^exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// What becomes the origin.
@@ -39,11 +38,11 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The placement of a scene of this extent in format `S`.
+    /// Returns the placement of a scene of this extent in format `S`.
     pub fn of<S: Quantize>(extent: &Extent) -> Self {
-        // Boxes are wider than their shapes, and rounding needs a little room at the rim.
+        // Boxes are wider than their shapes, and rounding needs a small margin.
         let diagonal = extent.diagonal() * (1.0 + 4.0 * S::SLACK) * 1.001;
-        // A ray that starts at the rim and goes as far as the diagonal ends at 1½ of it.
+        // A ray that starts at the edge of the scene and is as long as the diagonal ends at 1½ diagonals.
         let room = if S::FRACTION_BITS.is_some() {
             S::MAX.to_f64() / 1.5
         } else {
@@ -61,17 +60,17 @@ impl Placement {
         }
     }
 
-    /// 2^exponent.
+    /// Returns 2^exponent.
     pub fn scale(&self) -> f64 {
         2f64.powi(self.exponent)
     }
 
-    /// A point of the scene as the format's numbers.
+    /// Converts a point of the scene to the format's numbers.
     pub fn point(&self, p: model::Point) -> [f64; 3] {
         [0, 1, 2].map(|i| (p[i] - self.centre[i]) * self.scale())
     }
 
-    /// A length of the scene as the format's number.
+    /// Converts a length of the scene to the format's number.
     pub fn length(&self, x: f64) -> f64 {
         x * self.scale()
     }
@@ -84,7 +83,7 @@ pub struct Quantised<S: Scalar> {
     pub spheres: Vec<Sphere<S>>,
     /// Polygons of three vertices.
     pub triangles: Vec<Triangle<S>>,
-    /// Polygons of more.
+    /// Polygons of more vertices.
     pub polygons: Vec<Polygon<S>>,
     /// Truncated cones.
     pub cones: Vec<Cone<S>>,
@@ -108,25 +107,25 @@ pub struct Quantised<S: Scalar> {
     pub lights: Vec<Light<S>>,
     /// The background.
     pub background: Vec3<S>,
-    /// How far hits may lie off their shapes.
+    /// How far hits may be off their shapes.
     pub slack: S,
     /// The largest distance between two points.
     pub diameter: S,
     all_attributes: Vec<Attributes>,
 }
 
-/// A quantised scene with the picture that is to be made of it.
+/// A quantised scene with the picture to be made of it.
 #[derive(Debug)]
 pub struct Prepared<S: Quantize> {
     /// The scene.
     pub scene: Quantised<S>,
     /// The picture.
     pub frame: Frame<S>,
-    /// Where the scene lies.
+    /// The place of the scene.
     pub placement: Placement,
 }
 
-/// Brings a scene and a view of it into format `S`.
+/// Converts a scene and its view to format `S`.
 ///
 /// # Errors
 /// If a colour, a coefficient, a refraction index or a transmitted share does not fit the format.
@@ -170,7 +169,7 @@ pub fn quantise<S: Quantize>(
 }
 
 impl<S: Quantize> Quantised<S> {
-    /// The scene as the tracer sees it.
+    /// Returns the scene as the tracer uses it.
     pub fn scene(&self) -> Scene<'_, S> {
         let shapes = self.shapes();
         Scene {
@@ -184,7 +183,7 @@ impl<S: Quantize> Quantised<S> {
         }
     }
 
-    /// The geometry.
+    /// Returns the geometry.
     pub fn shapes(&self) -> Shapes<'_, S> {
         Shapes {
             spheres: &self.spheres,
@@ -203,8 +202,8 @@ impl<S: Quantize> Quantised<S> {
         }
     }
 
-    /// Puts the objects of each kind into the order in which `links` first names them, so that
-    /// objects that are tested together lie together, and renames them in `links`.
+    /// Sorts the objects of each kind by their first occurrence in `links`, so that objects that are tested together
+    /// are adjacent, and renumbers them in `links`.
     pub fn reorder(&mut self, links: &mut [ObjectRef]) {
         let mut places: [Vec<u32>; 5] =
             ObjectKind::ALL.map(|kind| vec![u32::MAX; self.shapes().count(kind)]);
@@ -268,7 +267,7 @@ fn vector<S: Quantize>(v: [f64; 3]) -> Vec3<S> {
     v.map(S::from_f64).into()
 }
 
-/// A number of the format that is not less than `x`.
+/// Rounds up to a number of the format.
 fn up<S: Quantize>(x: f64) -> S {
     let near = S::from_f64(x);
     if near.to_f64() >= x {
@@ -278,7 +277,7 @@ fn up<S: Quantize>(x: f64) -> S {
     S::from_f64(x + step)
 }
 
-/// A number of the format that is not greater than `x`.
+/// Rounds down to a number of the format.
 fn down<S: Quantize>(x: f64) -> S {
     -up::<S>(-x)
 }

@@ -1,7 +1,7 @@
-//! How often fixed point saturates, counted for each thread apart.
+//! Counts saturations of fixed point, separately for each thread.
 //!
-//! Core has no statics. This is the counter of programs with an operating system: whoever traces takes the
-//! difference of [`saturations`] on the thread that traced, so that two renderings in one process are told apart.
+//! Core has no statics; this is the counter for programs with an operating system. A caller takes the difference of
+//! [`saturations`] on the thread that traces, so that two renderings in one process are counted separately.
 
 use octray_core::scalar::SaturationCounter;
 use std::cell::Cell;
@@ -10,7 +10,7 @@ thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// The counter of formats that are traced, or prepared, here: each saturation counts for its thread.
+/// The saturation counter of formats on a host: each saturation is counted for its thread.
 #[derive(Clone, Copy, Debug)]
 pub struct PerThread;
 
@@ -23,12 +23,12 @@ impl SaturationCounter for PerThread {
     }
 }
 
-/// How many results have saturated on this thread since it began.
+/// Returns the number of saturations on this thread since it started.
 pub fn saturations() -> u64 {
     COUNT.get()
 }
 
-/// What `work` gives, and how many saturations it took.
+/// Returns the result of `work` and the number of its saturations.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u64) {
     let before = saturations();
     let result = work();
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn what_counts_nothing_costs_no_memory() {
+    fn a_format_without_a_counter_needs_no_more_memory() {
         assert_eq!(size_of::<Fixed<16, PerThread>>(), size_of::<Fixed<16>>());
         assert_eq!(size_of::<Fixed<16>>(), 4);
     }

@@ -1,4 +1,4 @@
-//! What there is to choose when a scene is rendered, and the defaults.
+//! The settings of a rendering, and their defaults.
 
 use crate::choice::Choice;
 use crate::format::{Arith, Format};
@@ -8,32 +8,32 @@ use serde::{Deserialize, Serialize};
 use std::num::{NonZeroU32, NonZeroUsize};
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
-/// What is rendered and how: everything that the picture depends on beside the scene, and the tree, on which it
-/// does not depend.
+/// What to render and how: everything beside the scene that the picture depends on, and the tree, on which it does not
+/// depend.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderSettings {
     /// The arithmetic.
     pub arith: Arith,
     /// The tree.
     pub tree: TreeSettings,
-    /// Columns and rows, 1 to 65535 each; the scene's own if `None`. The framing stays.
+    /// Columns and rows, 1 to 65535 each; the scene's own if `None`. The framing stays the same.
     pub size: Option<(u32, u32)>,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
     /// K for the mean of K × K rays per pixel, 1 to 64; 1 with four pixels per ray.
     pub samples: u32,
-    /// How often a ray may bounce, 0 to [`RenderSettings::DEEPEST`].
+    /// Maximum number of bounces of a ray, 0 to [`RenderSettings::DEEPEST`].
     pub max_depth: u32,
-    /// The weight, 0 to 1, below which a ray is not traced.
+    /// Rays of a smaller weight than this, 0 to 1, are not traced.
     pub cut_off: f64,
 }
 
 impl RenderSettings {
-    /// The largest limit of bounces that can be asked for.
+    /// The largest allowed number of bounces.
     pub const DEEPEST: u32 = 64;
 
-    /// f32, the default tree, the scene's own size, a ray per pixel, 8 bounces. Rays that weigh less than half a
-    /// grey level, 1/512, are not traced.
+    /// f32, the default tree, the scene's own size, one ray per pixel, 8 bounces, a cut-off of 1/512: rays that
+    /// contribute less than half a grey level are not traced.
     pub const DEFAULT: Self = Self {
         arith: Arith::F32,
         tree: TreeSettings::of(TreeKind::Bvh8),
@@ -56,18 +56,18 @@ impl Default for RenderSettings {
 pub struct TreeSettings {
     /// Its kind.
     pub kind: TreeKind,
-    /// The deepest level of nodes, the root being level 0; [`TreeKind::default_depth`] if `None`.
+    /// The deepest level of nodes; the root is level 0. [`TreeKind::default_depth`] if `None`.
     pub depth: Option<u32>,
-    /// Objects up to which a node is not divided; [`leaf_size`] if `None`.
+    /// Nodes of up to this many objects are not divided; [`leaf_size`] if `None`.
     pub leaf_size: Option<NonZeroU32>,
-    /// Room for that many nodes; as many as it takes if `None`.
+    /// Memory for that many nodes; as many as needed if `None`.
     pub arena: Option<NonZeroUsize>,
-    /// How objects are linked into octants.
+    /// How objects are assigned to the cells of an octree.
     pub link: Link,
 }
 
 impl TreeSettings {
-    /// A tree of this kind, all else by default.
+    /// Returns a tree of this kind with defaults otherwise.
     pub const fn of(kind: TreeKind) -> Self {
         Self {
             kind,
@@ -78,8 +78,8 @@ impl TreeSettings {
         }
     }
 
-    /// How the tree of a scene in `format` is built: for a `target` (a triple such as `thumbv6m-none-eabi`), or for
-    /// this machine if `None`.
+    /// Returns how to build the tree of a scene in `format` for a `target` (a triple such as `thumbv6m-none-eabi`), or
+    /// for this machine if `None`.
     pub fn build_options(
         &self,
         format: Format,
@@ -100,8 +100,8 @@ impl Default for TreeSettings {
     }
 }
 
-/// Objects up to which a node is not divided, where nothing else is asked for: for a target triple, or for this
-/// machine if `None`. It depends on what a hit test costs there, and on nothing else.
+/// Returns the default leaf size: nodes of up to this many objects are not divided. It is for a target triple, or for
+/// this machine if `None`, and depends only on the cost of a hit test there.
 pub fn leaf_size(format: Format, target: Option<&str>) -> u32 {
     hit_test_cost(format, target).leaf_size()
 }
@@ -110,7 +110,7 @@ fn hit_test_cost(format: Format, target: Option<&str>) -> HitTestCost {
     target.map_or(HitTestCost::Low, |target| HitTestCost::of(format, target))
 }
 
-/// The kind of tree that finds what a ray meets. All give the same picture, to the bit.
+/// The kind of accelerator. All give the same picture, bit for bit.
 #[derive(
     Clone,
     Copy,
@@ -129,30 +129,30 @@ fn hit_test_cost(format: Format, target: Option<&str>) -> HitTestCost {
 #[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum TreeKind {
-    /// A bounding volume hierarchy: eight boxes per node, every object in one leaf.
+    /// An 8-wide BVH: eight boxes per node, every object in one leaf.
     #[default]
     #[strum(to_string = "bvh8", serialize = "tight")]
     #[serde(alias = "tight")]
     Bvh8,
-    /// The same with boxes in 8-bit integers, in a quarter of the memory: what small targets use.
+    /// The same with boxes of 8-bit integers, in a quarter of the memory, for microcontrollers.
     #[strum(to_string = "compact-bvh8", serialize = "packed")]
     #[serde(rename = "compact-bvh8", alias = "packed")]
     CompactBvh8,
-    /// The thesis's octree: octants with cluster boxes, one merged with three empty ones where possible.
+    /// The thesis's octree: cells with cluster boxes; one cell is merged with three empty ones where possible.
     Modified,
-    /// Glassner's octree: octants split at the centre, objects linked into every leaf they touch.
+    /// Glassner's octree: cells split at the centre, objects linked into every leaf they touch.
     Plain,
-    /// None: every ray tries every object.
+    /// None: every ray is tested against every object.
     None,
 }
 
 impl TreeKind {
-    /// Its name on the command line and in statistics.
+    /// Returns its name on the command line and in statistics.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// The deepest level of nodes where nothing else is asked for.
+    /// Returns the default of the deepest level of nodes.
     pub const fn default_depth(self) -> u32 {
         match self {
             Self::Bvh8 => 24,
@@ -165,9 +165,9 @@ impl TreeKind {
 /// The tree of a scene that is baked for a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FirmwareTree {
-    /// [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; whichever costs less if `None`.
+    /// [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; the cheaper one if `None`.
     pub kind: Option<TreeKind>,
-    /// Whether the device builds it in its own memory.
+    /// Whether the device builds the tree in its own memory.
     pub on_device: bool,
 }
 
@@ -176,7 +176,7 @@ impl FirmwareTree {
     pub const COMPACT: Self = Self::of(Some(TreeKind::CompactBvh8), false);
     /// The compact tree, built by the device.
     pub const DEVICE: Self = Self::of(Some(TreeKind::CompactBvh8), true);
-    /// The compact tree where it costs less than none, baked.
+    /// The compact tree if it is cheaper than none, baked.
     pub const AUTO: Self = Self::of(None, false);
     /// None.
     pub const NONE: Self = Self::of(Some(TreeKind::None), false);
@@ -185,8 +185,8 @@ impl FirmwareTree {
         Self { kind, on_device }
     }
 
-    /// The kind that is taken for so many objects in a format on a target (a triple), or where hit tests cost little
-    /// if `None`.
+    /// Returns the kind of tree for this many objects in a format on a target (a triple), or on a target where hit
+    /// tests are cheap if `None`.
     pub fn kind_for(self, objects: usize, format: Format, target: Option<&str>) -> TreeKind {
         let least = hit_test_cost(format, target).least_objects();
         match self.kind {
@@ -225,24 +225,22 @@ impl Choice for FirmwareTree {
 
     fn help(self) -> &'static str {
         match (self.kind, self.on_device) {
-            (None, _) => "The compact BVH where it costs less than none",
+            (None, _) => "The compact BVH if it is cheaper than none",
             (Some(_), true) => "The compact BVH, built by the device in its own memory",
-            (Some(TreeKind::None), _) => "None: every ray tries every object",
-            (Some(_), false) => {
-                "A BVH of eight boxes per node in 8-bit integers, walked in integers"
-            }
+            (Some(TreeKind::None), _) => "None: every ray is tested against every object",
+            (Some(_), false) => "An 8-wide BVH with boxes of 8-bit integers, traversed in integers",
         }
     }
 }
 
-/// By name.
+/// Serialises by name.
 impl Serialize for FirmwareTree {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
     }
 }
 
-/// How objects are linked into the octants of the plain and the modified octree.
+/// How objects are assigned to the cells of the plain and the modified octree.
 #[derive(
     Clone,
     Copy,
@@ -259,10 +257,10 @@ impl Serialize for FirmwareTree {
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Link {
-    /// Wherever the object's surface passes.
+    /// To every cell that the object's surface passes through.
     #[default]
     Shape,
-    /// Wherever its bounding box reaches.
+    /// To every cell that its bounding box overlaps.
     Box,
 }
 
@@ -282,17 +280,17 @@ pub enum Link {
     IntoStaticStr,
 )]
 pub enum PixelsPerRay {
-    /// A ray for each pixel.
+    /// One ray per pixel.
     #[default]
     #[strum(serialize = "1")]
     One,
-    /// A ray for each block of 2 × 2 pixels.
+    /// One ray per block of 2 × 2 pixels.
     #[strum(serialize = "4")]
     Four,
 }
 
 impl PixelsPerRay {
-    /// How many.
+    /// Returns the number of pixels.
     pub const fn number(self) -> u32 {
         match self {
             Self::One => 1,
@@ -300,7 +298,7 @@ impl PixelsPerRay {
         }
     }
 
-    /// The side of the square of pixels that one ray colours.
+    /// Returns the side of the square of pixels that one ray colours.
     pub const fn side(self) -> u32 {
         match self {
             Self::One => 1,
@@ -324,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn old_names_of_trees_are_understood() {
+    fn old_names_of_trees_are_accepted() {
         for (old, kind) in [("tight", TreeKind::Bvh8), ("packed", TreeKind::CompactBvh8)] {
             assert_eq!(TreeKind::named(old), Some(kind));
             assert_eq!(

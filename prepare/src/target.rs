@@ -1,8 +1,8 @@
-//! What a hit test costs on a target, by the name of its triple, as far as that decides which tree is best.
+//! The cost of a hit test on a target, derived from its triple, because it decides which tree is best.
 
 use crate::format::{Family, Format};
 
-/// Whether 32-bit floats are emulated in integers, on an Arm or RISC-V core for microcontrollers.
+/// Returns whether the target is an Arm or RISC-V microcontroller core that emulates 32-bit floats in integers.
 pub fn emulates_floats(target: &str) -> bool {
     let extensions = target.strip_prefix("riscv32");
     let extensions = extensions.and_then(|rest| rest.split('-').next());
@@ -12,20 +12,20 @@ pub fn emulates_floats(target: &str) -> bool {
     }
 }
 
-/// What it takes to test a ray against an object, compared with a box of the tree, which is tested in
-/// short integers everywhere.
+/// The cost of testing a ray against an object, relative to a box of the tree, whose test uses short integers on every
+/// target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HitTestCost {
-    /// A few products.
+    /// A few multiplications.
     Low,
-    /// Long products on a core that has none.
+    /// Long multiplications on a core without an instruction for them.
     High,
     /// Emulated floats.
     Highest,
 }
 
 impl HitTestCost {
-    /// In a format on a target. Floating-point units have 32 bits.
+    /// Returns the cost in a format on a target. Floating-point units are assumed to have 32 bits.
     pub fn of(format: Format, target: &str) -> Self {
         let is_float = matches!(format.family(), Family::Float | Family::Approximate);
         let emulated = format == Format::F64 || emulates_floats(target);
@@ -36,7 +36,7 @@ impl HitTestCost {
         }
     }
 
-    /// From how many objects walking a tree costs less than trying every one. Measured.
+    /// Returns the number of objects from which a tree is cheaper than testing every object. Measured.
     pub fn least_objects(self) -> usize {
         match self {
             Self::Low => 8,
@@ -45,7 +45,7 @@ impl HitTestCost {
         }
     }
 
-    /// Objects up to which a node of the tree is best not divided. Measured.
+    /// Returns the best leaf size: nodes of up to this many objects are not divided. Measured.
     pub fn leaf_size(self) -> u32 {
         match self {
             Self::Low => 2,

@@ -1,4 +1,4 @@
-//! Trees in memory of their own, for everybody who has an allocator: grown until they fit.
+//! Trees in heap memory, which grows until the tree fits.
 
 use crate::quantise::Quantised;
 use octray_core::accel::{
@@ -14,11 +14,11 @@ use octray_core::ray::Aabb;
 pub struct Growth {
     /// Depth and leaf size.
     pub options: BuildOptions,
-    /// The most nodes; as many as it takes if `None`.
+    /// The maximum number of nodes; as many as needed if `None`.
     pub arena: Option<usize>,
 }
 
-/// A tight tree.
+/// An 8-wide BVH.
 #[derive(Clone, Debug)]
 pub struct OwnedBvh8<P> {
     nodes: Vec<Bvh8Node<P>>,
@@ -26,7 +26,7 @@ pub struct OwnedBvh8<P> {
 }
 
 impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
-    /// Builds the tree, and puts the scene's objects into the order of its leaves.
+    /// Builds the tree, and sorts the scene's objects in the order of its leaves.
     pub fn build<S: Quantize<Bound = P>>(
         scene: &mut Quantised<S>,
         growth: &Growth,
@@ -42,7 +42,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
                 links: &mut links,
                 boxes: &mut boxes,
             };
-            // There are a node, and a link and a box for each object: it cannot fail.
+            // There is at least one node, and a link and a box per object: building cannot fail.
             let (used, summary) = Bvh8::build(&scene.shapes(), memory, growth.options)
                 .map_or((0, BuildStats::default()), |(tree, summary)| {
                     (tree.nodes.len(), summary)
@@ -57,7 +57,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
         }
     }
 
-    /// The tree as the tracer sees it.
+    /// Returns the tree as the tracer uses it.
     pub fn tree(&self) -> Bvh8<'_, P> {
         Bvh8 {
             nodes: &self.nodes,
@@ -66,23 +66,23 @@ impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
     }
 }
 
-/// A packed tree.
+/// A compact 8-wide BVH.
 #[derive(Clone, Debug)]
 pub struct OwnedCompactBvh8 {
     /// The nodes.
     pub words: Vec<u32>,
     /// The objects, leaf by leaf.
     pub links: Vec<ObjectRef>,
-    /// A tick is 2 to this grid units.
+    /// A tick is 2 to this power, in grid units.
     pub tick: u32,
 }
 
 impl OwnedCompactBvh8 {
-    /// Builds the tree, and puts the scene's objects into the order of its leaves. The arena is
-    /// counted in nodes of eight children, 18 words each.
+    /// Builds the tree, and sorts the scene's objects in the order of its leaves. The arena is counted in nodes of
+    /// eight children, 18 words each.
     ///
     /// # Errors
-    /// If there are more objects than a packed tree can hold.
+    /// If there are more objects than a compact BVH can hold.
     pub fn build<S: Quantize>(
         scene: &mut Quantised<S>,
         growth: &Growth,
@@ -105,10 +105,7 @@ impl OwnedCompactBvh8 {
         Ok((Self { words, links, tick }, summary))
     }
 
-    /// The tree as the tracer sees it.
-    ///
-    /// # Panics
-    /// If somebody has changed its words: those that were built fit the stack.
+    /// Returns the tree as the tracer uses it.
     pub fn tree(&self) -> CompactBvh8<'_> {
         CompactBvh8::new(&self.words, &self.links, self.tick).expect("a tree as it was built")
     }
@@ -122,14 +119,14 @@ pub struct OwnedOctree<P> {
 }
 
 impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
-    /// Builds the tree, and puts the scene's objects into the order of its leaves.
+    /// Builds the tree, and sorts the scene's objects in the order of its leaves.
     pub fn build<S: Quantize<Bound = P>>(
         scene: &mut Quantised<S>,
         growth: &Growth,
         variant: OctreeVariant,
         link: LinkBy,
     ) -> (Self, BuildStats) {
-        // A format whose hits can lie off their surfaces needs every cell that a box touches.
+        // If hits of a format can be off their surfaces, an object belongs to every cell that its box overlaps.
         let link = if S::HITS_WITHIN_SLACK {
             link
         } else {
@@ -152,7 +149,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
             .map_or((0, 0, BuildStats::default()), |(tree, summary)| {
                 (tree.nodes.len(), tree.links.len(), summary)
             });
-            // Memory is bounded even where splitting never separates the objects.
+            // Memory is bounded even if splitting never separates the objects.
             if summary.unsplit > 0 && growth.arena.is_none() && room < 1 << 24 {
                 room *= 2;
                 link_room *= 2;
@@ -165,7 +162,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
         }
     }
 
-    /// The tree as the tracer sees it.
+    /// Returns the tree as the tracer uses it.
     pub fn tree(&self) -> Octree<'_, P> {
         Octree {
             nodes: &self.nodes,
@@ -174,7 +171,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
     }
 }
 
-/// Every object once, for [`octray_core::accel::BruteForce`].
+/// Returns every object once, for [`octray_core::octree::List`].
 pub fn every_object<S: Quantize>(scene: &Quantised<S>) -> Vec<ObjectRef> {
     scene.shapes().refs().collect()
 }

@@ -1,4 +1,4 @@
-//! Baked scenes: what they are said to need, and the numbers that are written.
+//! Baked scenes: the features that they request, and the numbers that are written.
 
 use octray_prepare::RenderSettings;
 use octray_prepare::bake::{BakeError, BakeOptions, Baked, bake};
@@ -30,7 +30,7 @@ fn line(baked: &Baked, start: &str) -> String {
 }
 
 #[test]
-fn a_scene_needs_what_is_in_it_and_no_more() {
+fn a_scene_requests_exactly_the_features_it_has() {
     let matt = "f 0 0 0 1 1 1 0 0 0 0 0 0";
     let mirror = "f 0 0 0 1 1 1 0 0 0 0 0.5 0";
     let glass = "f 0 0 0 1 1 1 1 1 1 2.5 0.5 0.5 1.5";
@@ -94,7 +94,7 @@ fn every_format_is_baked_as_itself_and_auto_as_the_finest() {
 }
 
 #[test]
-fn what_a_format_cannot_have_is_told() {
+fn what_does_not_fit_a_format_is_reported() {
     let glass = "f 0 0 0 1 1 1 0 0 0 0 0 1.5 1.5 s 0 0 -5 1";
     let why = baked(glass, Arith::I16F16, 8).unwrap_err().to_string();
     assert_eq!(
@@ -104,10 +104,10 @@ fn what_a_format_cannot_have_is_told() {
     assert!(baked(glass, Arith::F32, 8).is_ok());
     let bright = "f 0 0 0 9e4 1 1 0 0 0 0 0 0 s 0 0 -5 1";
     let why = baked(bright, Arith::I16F16, 8).unwrap_err().to_string();
-    let told = "but diffuse and specular light of surface 1 can reach 90000.000000";
+    let expected = "but diffuse and specular light of surface 1 can reach 90000.000000";
     assert!(
         why.starts_with("i16f16 holds numbers below 32767.99"),
         "{why}"
     );
-    assert!(why.ends_with(told), "{why}");
+    assert!(why.ends_with(expected), "{why}");
 }

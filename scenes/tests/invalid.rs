@@ -56,8 +56,8 @@ fn a_binary_file_is_refused() {
 fn a_file_without_permission_is_unreadable() {
     use std::os::unix::fs::PermissionsExt;
     let file = tempfile::NamedTempFile::new().unwrap();
-    let nobody = std::fs::Permissions::from_mode(0o000);
-    std::fs::set_permissions(file.path(), nobody).unwrap();
+    let no_permissions = std::fs::Permissions::from_mode(0o000);
+    std::fs::set_permissions(file.path(), no_permissions).unwrap();
     if std::fs::File::open(file.path()).is_ok() {
         return; // Root may read everything.
     }

@@ -1,15 +1,15 @@
-//! Sum and difference.
+//! Addition and subtraction.
 
 use crate::bits::{
     INFINITY, NAN, SIGN, exponent, fraction, is_normal, magnitude, normalise, pack, pack_normal,
     propagate, shift_sticky, significand,
 };
 
-/// Beyond this distance of the exponents the smaller number is less than half of a last place of
-/// the sum, even of one in the next lower binade.
+/// If the exponents differ by more than this, the smaller number is less than half of a last place of the sum, even if
+/// the sum is one binade lower.
 const FAR: u32 = 25;
 
-/// `a` + `b`.
+/// Returns `a` + `b`.
 #[inline(always)]
 pub const fn add(a: u32, b: u32) -> u32 {
     if a << 1 < b << 1 {
@@ -19,20 +19,20 @@ pub const fn add(a: u32, b: u32) -> u32 {
     }
 }
 
-/// `a` − `b`.
+/// Returns `a` − `b`.
 #[inline(always)]
 pub const fn sub(a: u32, b: u32) -> u32 {
     add(a, b ^ SIGN)
 }
 
-/// `a` + `b`, where |`a`| ≥ |`b`|; whether they were swapped for that.
+/// Returns `a` + `b` for |`a`| ≥ |`b`|; `SWAPPED` states whether the operands were swapped to achieve that.
 #[inline(always)]
 const fn add_ordered<const SWAPPED: bool>(a: u32, b: u32) -> u32 {
     let (large, small) = (exponent(a), exponent(b));
     if !is_normal(large) || small == 0 {
-        // Zeros are common: of normals and directions along an axis.
+        // Zeros are common in normals and in directions along an axis.
         if b << 1 == 0 && large != 255 {
-            // -0 only if both are.
+            // -0 only if both operands are -0.
             return if a << 1 == 0 { a & b } else { a };
         }
         return if SWAPPED {
@@ -45,7 +45,7 @@ const fn add_ordered<const SWAPPED: bool>(a: u32, b: u32) -> u32 {
     if distance > FAR {
         return a;
     }
-    // One bit less than a significand has leaves room for the carry.
+    // A significand with one bit less leaves room for the carry.
     let x = significand(a) >> 1;
     let y = shift_sticky(significand(b) >> 1, distance);
     let sign = a & SIGN;
@@ -71,7 +71,7 @@ const fn add_ordered<const SWAPPED: bool>(a: u32, b: u32) -> u32 {
     }
 }
 
-/// The sum of any two numbers.
+/// Returns the sum of any two numbers.
 #[cold]
 #[inline(never)]
 const fn add_special(a: u32, b: u32) -> u32 {

@@ -1,14 +1,14 @@
-//! To and from integers.
+//! Conversions to and from integers.
 
 use crate::bits::{INFINITY, SIGN, exponent, magnitude, normalise, pack_normal, significand};
 
-/// The nearest number to `x`, ties to even.
+/// Returns the number nearest to `x`, ties to even.
 #[inline(always)]
 pub const fn from_u32(x: u32) -> u32 {
     signed_from(0, x)
 }
 
-/// The nearest number to `x`, ties to even.
+/// Returns the number nearest to `x`, ties to even.
 #[inline(always)]
 pub const fn from_i32(x: i32) -> u32 {
     signed_from(x as u32 & SIGN, x.unsigned_abs())
@@ -23,7 +23,7 @@ const fn signed_from(sign: u32, x: u32) -> u32 {
     pack_normal(sign, exponent as u32, m)
 }
 
-/// `x` without its fraction; the nearest integer if it is out of range, 0 for NaN.
+/// Truncates `x` toward zero; returns the nearest integer if it is out of range, 0 for NaN.
 #[inline(always)]
 pub const fn to_i32(x: u32) -> i32 {
     let e = exponent(x);
@@ -49,7 +49,7 @@ const fn out_of_range(x: u32) -> i32 {
     }
 }
 
-/// `x` without its fraction; the nearest integer if it is out of range, 0 for NaN.
+/// Truncates `x` toward zero; returns the nearest integer if it is out of range, 0 for NaN.
 #[inline(always)]
 pub const fn to_u32(x: u32) -> u32 {
     let e = exponent(x);

@@ -1,11 +1,11 @@
-//! Quotient.
+//! Division.
 
 use crate::bits::{
     INFINITY, NAN, SIGN, exponent, is_normal, magnitude, pack, pack_normal, propagate, significand,
     unpack,
 };
 
-/// `a` / `b`.
+/// Returns `a` / `b`.
 #[inline(always)]
 pub const fn div(a: u32, b: u32) -> u32 {
     let (ea, eb) = (exponent(a), exponent(b));
@@ -13,7 +13,7 @@ pub const fn div(a: u32, b: u32) -> u32 {
         return div_special(a, b);
     }
     let (x, y) = (significand(a) >> 8, significand(b) >> 8);
-    // Wraps if negative.
+    // Wraps around if negative.
     let exponent = (ea + 127).wrapping_sub(eb).wrapping_sub((x < y) as u32);
     if !is_normal(exponent) {
         return div_special(a, b);
@@ -21,7 +21,7 @@ pub const fn div(a: u32, b: u32) -> u32 {
     pack_normal((a ^ b) & SIGN, exponent, quotient(x, y))
 }
 
-/// x / y, or 2x / y if that is less than 1, as a significand: x and y have 24 bits.
+/// Returns x / y, or 2x / y if that is less than 1, as a significand: x and y have 24 bits.
 #[inline(always)]
 const fn quotient(x: u32, y: u32) -> u32 {
     let twice = if x < y { x << 1 } else { x };
@@ -29,11 +29,11 @@ const fn quotient(x: u32, y: u32) -> u32 {
     SIGN | digits << 7 | (rest != 0) as u32
 }
 
-/// The quotient's 24 bits below the leading one, and whether anything remains, for rest < y < 2²⁴.
+/// Returns the quotient's 24 bits below the leading one, and whether there is a remainder, for rest < y < 2²⁴.
 #[cfg(divide)]
 #[inline(always)]
 const fn fraction(mut rest: u32, y: u32) -> (u32, u32) {
-    // Eight bits at a time.
+    // Eight bits per step.
     let mut digits = 0;
     let mut i = 0;
     while i < 3 {
@@ -45,11 +45,11 @@ const fn fraction(mut rest: u32, y: u32) -> (u32, u32) {
     (digits, rest)
 }
 
-/// The same without the instruction: twelve bits at a time, by the reciprocal.
+/// The same without a division instruction: twelve bits per step, by the reciprocal.
 ///
-/// It is at most one part in 5000 too small, and never too large; with the eight bits cut off the
-/// rest, a digit is less than 4096/5000 + 1/8 too small before it is cut to an integer, so at most 1
-/// after it. Products wrap, but what remains is small.
+/// The reciprocal is at most one part in 5000 too small, and never too large. With the eight bits cut off the rest, a
+/// digit is less than 4096/5000 + 1/8 too small before truncation, so at most 1 too small after it. Products wrap
+/// around, but the remainder is small.
 #[cfg(not(divide))]
 #[inline(always)]
 const fn fraction(mut rest: u32, y: u32) -> (u32, u32) {
@@ -69,12 +69,12 @@ const fn fraction(mut rest: u32, y: u32) -> (u32, u32) {
     (digits, rest)
 }
 
-/// 2²⁴ / y with 15 fraction bits, at most one part in 5000 too small and never too large, for y of 24 bits:
-/// from a table, and one Newton step, which errs downwards only.
+/// Returns 2²⁴ / y with 15 fraction bits, at most one part in 5000 too small and never too large, for y of 24 bits:
+/// from a table and one Newton step, whose error is never positive.
 #[cfg(any(test, not(divide)))]
 #[inline(always)]
 const fn reciprocal_q15(y: u32) -> u32 {
-    // Not below y.
+    // Rounded up, so it is at least y.
     let y_q16 = (y >> 8) + 1;
     let first_q8 = 256 + RECIPROCALS[(y >> 17 & 63) as usize] as u32;
     let correction_q24 = (2 << 24) - first_q8 * y_q16;
@@ -94,7 +94,7 @@ static RECIPROCALS: [u8; 64] = {
     table
 };
 
-/// The quotient of any two numbers.
+/// Returns the quotient of any two numbers.
 #[cold]
 #[inline(never)]
 const fn div_special(a: u32, b: u32) -> u32 {

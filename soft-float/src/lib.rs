@@ -1,11 +1,12 @@
-//! IEEE 754 binary32 in integers, for cores without a floating-point unit: numbers are their bits,
-//! results are rounded to nearest, ties to even, with subnormal numbers, infinities and -0.
+//! IEEE 754 binary32 arithmetic with integers, for cores without a floating-point unit. Numbers are passed as their
+//! bits; results are rounded to nearest, ties to even, with subnormal numbers, infinities and -0.
 //!
-//! The first operand that is NaN is the result, made quiet ([`sub`] turns the sign of its second operand, even
-//! of a NaN); an invalid operation brings `7fc00000`. Normal numbers take the short way through every function; a cold one takes the rest.
+//! If an operand is NaN, the result is the first NaN, made quiet ([`sub`] flips the sign of its second operand, even of
+//! a NaN). An invalid operation returns `7fc00000`. Normal numbers take the short path through every function; a cold
+//! function handles the rest.
 //!
-//! With the feature `replace`, and on targets whose compiler calls routines for `f32`, the functions
-//! also have the routines' names, and the linker takes them instead.
+//! With the feature `replace`, and on targets whose compiler calls routines for `f32`, the functions also have the
+//! names of those routines, and the linker uses them instead.
 #![no_std]
 
 mod add;

@@ -1,23 +1,23 @@
-//! Product.
+//! Multiplication.
 
 use crate::bits::{
     INFINITY, NAN, SIGN, exponent, is_normal, magnitude, pack, pack_normal, propagate, significand,
     unpack,
 };
 
-/// `a` · `b`.
+/// Returns `a` · `b`.
 #[inline(always)]
 pub const fn mul(a: u32, b: u32) -> u32 {
     let (ea, eb) = (exponent(a), exponent(b));
     if !is_normal(ea) || !is_normal(eb) {
-        // Zeros are common: of normals and directions along an axis.
+        // Zeros are common in normals and in directions along an axis.
         if (a << 1 == 0 && eb != 255) || (b << 1 == 0 && ea != 255) {
             return (a ^ b) & SIGN;
         }
         return mul_special(a, b);
     }
     let mut m = product(significand(a), significand(b));
-    // Of the product below 2 of two significands from 1 to 2; wraps if negative.
+    // The exponent if the product of the two significands, each from 1 to 2, is below 2; wraps around if negative.
     let mut exponent = (ea + eb).wrapping_sub(127);
     if m & SIGN == 0 {
         m <<= 1;
@@ -30,7 +30,7 @@ pub const fn mul(a: u32, b: u32) -> u32 {
     pack_normal((a ^ b) & SIGN, exponent, m)
 }
 
-/// The upper half of the product of two significands, its last bit sticky: 2³⁰ or more.
+/// Returns the upper half of the product of two significands, with a sticky last bit: 2³⁰ or more.
 #[inline(always)]
 const fn product(x: u32, y: u32) -> u32 {
     #[cfg(long_multiply)]
@@ -40,7 +40,7 @@ const fn product(x: u32, y: u32) -> u32 {
     }
     #[cfg(not(long_multiply))]
     {
-        // Four products of 16 bits or fewer: significands have 24.
+        // Four products of at most 16 x 16 bits: significands have 24.
         let (x1, x0) = (x >> 24, x >> 8 & 0xffff);
         let (y1, y0) = (y >> 24, y >> 8 & 0xffff);
         let low = x0 * y0;
@@ -49,7 +49,7 @@ const fn product(x: u32, y: u32) -> u32 {
     }
 }
 
-/// The product of any two numbers.
+/// Returns the product of any two numbers.
 #[cold]
 #[inline(never)]
 const fn mul_special(a: u32, b: u32) -> u32 {

@@ -1,14 +1,14 @@
-//! The compiler's own names, so that the linker takes these functions for its routines, which are
-//! weak. An `f32` is passed in an integer register there, as a `u32` is.
+//! Exports the functions under the compiler's own names. Its routines are weak symbols, so the linker uses these
+//! functions instead. They pass an `f32` in an integer register, as a `u32` is passed.
 
 use crate as soft;
 
-/// Functions under their name for the linker.
+/// Exports functions under their names for the linker.
 macro_rules! replace {
     ($($(#[$doc:meta])* fn $name:ident($($x:ident: $t:ty),+) -> $r:ty $body:block)+) => {
         $(
             $(#[$doc])*
-            // SAFETY: it is the compiler's name for a function of this signature and meaning.
+            // SAFETY: this is the compiler's name for a function of this signature and meaning.
             #[unsafe(no_mangle)]
             pub(crate) extern "C" fn $name($($x: $t),+) -> $r $body
         )+
@@ -33,7 +33,7 @@ replace! {
     fn __aeabi_f2uiz(x: u32) -> u32 { soft::to_u32(x) }
 }
 
-// Comparisons are answered by a number to compare with 0.
+// Comparisons return a number that the compiler compares with 0.
 #[cfg(target_arch = "riscv32")]
 replace! {
     fn __addsf3(a: u32, b: u32) -> u32 { soft::add(a, b) }

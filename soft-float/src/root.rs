@@ -4,7 +4,7 @@ use crate::bits::{
     INFINITY, NAN, QUIET, SIGN, exponent, is_normal, magnitude, significand, unpack,
 };
 
-/// √`x`.
+/// Returns √`x`.
 #[inline(always)]
 pub const fn sqrt(x: u32) -> u32 {
     let e = exponent(x);
@@ -14,11 +14,11 @@ pub const fn sqrt(x: u32) -> u32 {
     root(e, significand(x))
 }
 
-/// The root of a number of this exponent plus a multiple of 2, and significand.
+/// Returns the root of a number with this significand and this exponent plus a multiple of 2.
 ///
-/// Of z = N / 2³² from 1/4 to 1: 1/√z by a table and one Newton step; then √z · 2¹⁶ from that, and
-/// the nine bits that are missing from its square's distance to N. They are off by less than 1 before
-/// they are cut to an integer. Squares wrap, but the distances to them are small.
+/// Let z = N / 2³² from 1/4 to 1. A table and one Newton step give 1/√z; from that follows √z · 2¹⁶; the missing nine
+/// bits follow from the distance of its square to N. They are off by less than 1 before truncation. Squares wrap
+/// around, but their distances to N are small.
 #[inline(always)]
 const fn root(exponent: u32, significand: u32) -> u32 {
     let odd = exponent & 1;
@@ -59,7 +59,7 @@ static INVERSE_ROOTS: [u8; 192] = {
     table
 };
 
-/// The root of any number.
+/// Returns the root of any number.
 #[cold]
 #[inline(never)]
 const fn sqrt_special(x: u32) -> u32 {
@@ -69,7 +69,7 @@ const fn sqrt_special(x: u32) -> u32 {
         _ if x & SIGN != 0 => NAN,
         INFINITY => x,
         _ => {
-            // Subnormal: its exponent is made positive by an even number.
+            // Subnormal: an even number makes its exponent positive.
             let (exponent, m) = unpack(x);
             root((exponent + 32) as u32, m) - (16 << 23)
         }

@@ -1,10 +1,10 @@
-//! Every operation gives the bits that the hardware gives; NaN, which differs between machines, as
-//! the compiler's routines bring it.
+//! Every operation returns the same bits as the hardware. NaN differs between machines, and is as the compiler's
+//! routines return it.
 
 use octray_soft_float as soft;
 
-/// Zeros, the least and the largest subnormal and normal numbers, infinity, NaN with payloads, and
-/// fractions that round up, down and to even, at many exponents; of both signs.
+/// Returns zeros, the least and the largest subnormal and normal numbers, infinity, NaN with payloads, and fractions
+/// that round up, down and to even, at many exponents; all with both signs.
 fn special() -> Vec<u32> {
     let exponents = [
         0, 1, 2, 22, 23, 24, 25, 26, 63, 64, 65, 100, 101, 102, 103, 104, 125, 126, 127, 128, 129,
@@ -33,8 +33,8 @@ impl Random {
     }
 }
 
-/// All pairs of special values, five million of any values, and five million that are close
-/// together, where sums cancel.
+/// Tests all pairs of special values, five million pairs of arbitrary values, and five million pairs of close values,
+/// where sums cancel.
 fn pairs(mut test: impl FnMut(u32, u32)) {
     let special = special();
     for &a in &special {
@@ -51,7 +51,7 @@ fn pairs(mut test: impl FnMut(u32, u32)) {
     }
 }
 
-/// The bits of an operation's result: of `f` by the hardware, but NaN as documented.
+/// Returns the bits of an operation's result: computed by the hardware, but NaN as documented.
 fn expected(a: u32, b: u32, f: impl Fn(f32, f32) -> f32) -> u32 {
     let [x, y] = [a, b].map(f32::from_bits);
     let result = f(x, y);
@@ -84,7 +84,7 @@ fn sums() {
 
 #[test]
 fn differences() {
-    // A NaN subtracted changes its sign, as the compiler's routine does it.
+    // Subtraction flips the sign of a NaN, as the compiler's routine does.
     pairs(|a, b| assert_eq!(soft::sub(a, b), soft::add(a, b ^ 1 << 31)));
 }
 
@@ -113,7 +113,7 @@ fn comparisons() {
     });
 }
 
-/// Special values, random ones, and the first numbers of all 65,536 blocks of 65,536.
+/// Returns special values, random values, and the first numbers of all 65,536 blocks of 65,536.
 fn singles() -> impl Iterator<Item = u32> {
     let mut random = Random(0x0123_4567_89ab_cdef);
     let random = std::iter::repeat_with(move || random.next()).take(5_000_000);

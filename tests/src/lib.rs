@@ -1,8 +1,8 @@
-//! What the tests of octray share: a slow, obvious renderer to compare the real one with, and
-//! random scenes, and octray called as its command calls it.
+//! Shared parts of the tests: the oracle (a slow, simple renderer to compare octray with), random scenes, and
+//! renderings with the settings of octray's command.
 
 pub mod oracle;
 pub mod shot;
-/// Beside what tests core with it.
+/// In the folder of core's tests, which use it too.
 #[path = "../../core/tests/support/strew.rs"]
 pub mod strew;

@@ -1,20 +1,19 @@
-//! The oracle: a slow, obvious `f64` renderer of the rendering model, to compare octray with pixel
-//! by pixel.
+//! The oracle: a slow, simple `f64` renderer of the rendering model, with which octray is compared pixel by pixel.
 //!
-//! It shares no code with octray: it has its own reader of scene files, tests every object for
-//! every ray, and recurses. It expects valid scenes, and panics with a message on others.
+//! It shares no code with octray: it has its own reader of scene files, tests every object for every ray, and recurses.
+//! It expects valid scenes and panics with a message on others.
 //!
-//! Where the model leaves a choice, the oracle chooses so:
+//! Where the model leaves a choice, the oracle does the following:
 //! - Each sample is clamped to [0, 1] before the samples of a pixel are averaged.
-//! - Of several objects hit at the same distance, the first in the file is seen.
+//! - Of several objects hit at the same distance, the first in the file is visible.
 //! - A ray of weight 0 is not traced, even when the cut-off is 0; a shadow ray is traced only if
 //!   N·L > 0.
 //! - The rays of a parallel view start in the plane through the viewpoint, with either camera.
-//! - A patch is hit like a polygon and, like one, counts as entered each time; its normals are
-//!   interpolated as they stand in the file, and the sum is normalised and turned to face the ray.
-//! - "t > 0" from a point on a surface: the ray starts off the surface by 1e-9 of the coordinates'
-//!   size, along the geometric normal, on the side it leaves to. "t < 1" to a light: up to 1e-9 of
-//!   the way short of it.
+//! - A patch is hit like a polygon and, like one, is entered at each hit; its normals are interpolated as they are in
+//!   the file, and the sum is normalised and turned to face the ray.
+//! - "t > 0" from a point on a surface: the ray starts off the surface by 1e-9 of the coordinates' size, along the
+//!   geometric normal, on the side of its direction. "t < 1" to a light: the ray ends up to 1e-9 of its length before
+//!   the light.
 
 mod camera;
 mod cone;
@@ -28,19 +27,19 @@ use camera::Camera;
 use trace::Tracer;
 use vector::V3;
 
-/// How to render a scene.
+/// The settings of a rendering.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Width and height in pixels, in place of the file's; the framing stays.
+    /// Width and height in pixels, in place of the file's; the framing stays the same.
     pub size: Option<(u32, u32)>,
-    /// 1, or 4: one ray through the centre of each 2 × 2 block colours all four. A block that
-    /// sticks out on the right or at the bottom keeps its centre.
+    /// 1, or 4: one ray through the centre of each 2 × 2 block colours all four pixels. A block that extends beyond the
+    /// right or bottom edge keeps its centre.
     pub pixels_per_ray: u32,
     /// K: each pixel (or block) is the mean of K × K rays through the centres of equal sub-cells.
     pub samples: u32,
-    /// The most bounces a ray may have behind it; 0 traces eye rays only.
+    /// The maximum number of bounces before a ray; 0 traces primary rays only.
     pub max_depth: u32,
-    /// A ray of less weight than this is not traced.
+    /// Rays of a smaller weight are not traced.
     pub cut_off: f64,
 }
 
@@ -56,7 +55,7 @@ impl Default for Options {
     }
 }
 
-/// Rays by kind.
+/// Numbers of rays by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Rays from the eye.
@@ -65,9 +64,9 @@ pub struct Counts {
     pub eye_hits: u64,
     /// Rays traced towards a light.
     pub shadow: u64,
-    /// Rays towards a light that met an object.
+    /// Rays towards a light that hit an object.
     pub blocked: u64,
-    /// Rays traced in a mirror direction.
+    /// Rays traced in the mirror direction.
     pub reflected: u64,
     /// Rays traced through a surface.
     pub transmitted: u64,
@@ -93,7 +92,7 @@ pub struct Picture {
     pub height: u32,
     /// Red, green and blue of each pixel, rows from top to bottom.
     pub rgb: Vec<u8>,
-    /// The rays it took.
+    /// The numbers of traced rays.
     pub counts: Counts,
 }
 
@@ -154,8 +153,8 @@ pub fn render(source: &str, options: &Options) -> Picture {
     }
 }
 
-/// The object that the ray through each pixel's centre sees first, by its index in the file from 0;
-/// rows from top to bottom. Of the options only `size` matters.
+/// Returns the object that the ray through each pixel's centre hits first, by its index in the file from 0; rows from
+/// top to bottom. Of the options only `size` is used.
 ///
 /// # Panics
 /// If the scene is not valid, or a size is 0.
@@ -181,7 +180,7 @@ pub fn first_object(source: &str, options: &Options) -> Vec<Option<u32>> {
     .concat()
 }
 
-/// The colour of one cell of `side` × `side` pixels, as bytes.
+/// Returns the colour of one cell of `side` × `side` pixels, as bytes.
 fn cell_colour(
     tracer: &Tracer<'_>,
     camera: &Camera,
@@ -204,12 +203,12 @@ fn cell_colour(
     [mean.x, mean.y, mean.z].map(to_byte)
 }
 
-/// The byte nearest to 255 times a channel in [0, 1].
+/// Returns the byte nearest to 255 times a channel in [0, 1].
 fn to_byte(channel: f64) -> u8 {
     (255.0 * channel + 0.5).floor() as u8
 }
 
-/// The results of `work` for 0, 1, … `rows` − 1, in this order.
+/// Returns the results of `work` for 0, 1, … `rows` − 1, in this order.
 fn on_all_cores<T: Send>(rows: u32, work: impl Fn(u32) -> T + Sync) -> Vec<T> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let work = &work;

@@ -1,4 +1,4 @@
-//! Pictures made by octray, without its command line.
+//! Renders pictures with octray, without its command line.
 
 use octray_prepare::{Arith, RenderSettings, TreeKind};
 use octray_render::interrupt::Interrupt;
@@ -9,7 +9,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// The scene files of the project, by name.
+/// Returns the scene files of the project, by name.
 ///
 /// # Panics
 /// If they cannot be listed, or there are none.
@@ -25,7 +25,7 @@ pub fn scene_files() -> Vec<PathBuf> {
     files
 }
 
-/// A file's name without folder and extension.
+/// Returns a file's name without folder and extension.
 pub fn stem(path: &Path) -> String {
     path.file_stem()
         .unwrap_or_default()
@@ -41,15 +41,15 @@ pub fn read(path: &Path) -> Scene {
     octray_scenes::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// How a picture is made; the rest is as the command has it.
+/// The settings of a picture; the rest is as in the command.
 #[derive(Clone, Copy, Debug)]
 pub struct Shot {
-    /// What is rendered.
+    /// The settings.
     pub settings: RenderSettings,
 }
 
 impl Shot {
-    /// The command's defaults in this arithmetic.
+    /// Returns the command's defaults in this arithmetic.
     pub fn new(arith: Arith) -> Self {
         Self {
             settings: RenderSettings {
@@ -59,21 +59,21 @@ impl Shot {
         }
     }
 
-    /// The same with another size.
+    /// Sets the size.
     #[must_use]
     pub fn size(mut self, width: u32, height: u32) -> Self {
         self.settings.size = Some((width, height));
         self
     }
 
-    /// The same with another kind of tree.
+    /// Sets the kind of tree.
     #[must_use]
     pub fn tree(mut self, kind: TreeKind) -> Self {
         self.settings.tree.kind = kind;
         self
     }
 
-    /// Makes the picture.
+    /// Renders the picture.
     ///
     /// # Panics
     /// If the scene does not fit the arithmetic.

@@ -1,6 +1,6 @@
-//! How far each arithmetic's picture may be from that in `f64`, at 256 × 256 on every scene.
+//! Limits how far each arithmetic's picture may be from that in `f64`, at 256 × 256 for every scene.
 //!
-//! `OCTRAY_NFF` may name a folder with further scenes: every `*_small.nff` in it is measured too.
+//! `OCTRAY_NFF` may name a folder with more scenes: every `*_small.nff` in it is measured too.
 
 use octray_core::accel::{Accelerator, TraversalStack};
 use octray_core::quantize::Quantize;
@@ -19,18 +19,18 @@ use std::path::PathBuf;
 
 const SIDE: u32 = 256;
 
-/// The least peak signal-to-noise ratio in dB, by arithmetic.
+/// The lowest allowed PSNR in dB, by arithmetic.
 const LEAST_PSNR: [(Arith, f64); 3] = [
     (Arith::F32, 50.0),
     (Arith::APPROX2, 45.0),
     (Arith::Auto, 40.0),
 ];
 
-/// The largest share of pixels that may see another object first.
+/// The largest allowed share of pixels whose first object differs.
 const OTHER_OBJECTS: f64 = 0.001;
 
 #[test]
-fn pictures_are_near_those_in_f64() {
+fn pictures_are_close_to_those_in_f64() {
     let mut table = format!(
         "{:<14} {:<8} {:>7} {:>8} {:>8} {:>8} {:>12}\n",
         "scene", "format", "dB", "largest", "beyond 8", "others", "saturations"
@@ -88,7 +88,7 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// What the ray through each pixel's centre meets first, in a format.
+/// Returns what the ray through each pixel's centre hits first, in a format.
 fn first_objects_in(format: Format, scene: &Scene) -> Vec<Option<u32>> {
     struct Task<'a>(&'a Scene);
     impl InFormat for Task<'_> {
@@ -100,7 +100,7 @@ fn first_objects_in(format: Format, scene: &Scene) -> Vec<Option<u32>> {
     format.dispatch(Task(scene))
 }
 
-/// What the ray through each pixel's centre meets first, row by row.
+/// Returns what the ray through each pixel's centre hits first, row by row.
 fn first_objects<S: Quantize>(scene: &Scene) -> Vec<Option<u32>> {
     let view = RenderSettings {
         size: Some((SIDE, SIDE)),

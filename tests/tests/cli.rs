@@ -1,4 +1,4 @@
-//! `octray render` end to end: what it writes, what it prints, how it ends.
+//! `octray render` end to end: the files it writes, its output, and its exit codes.
 
 use octray_render::metric::Difference;
 use octray_render::picture::{self, Picture};
@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use tempfile::TempDir;
 
-/// A bit of everything: a mirror, glass, a box, a cone and a polygon under two lights.
+/// All features: a mirror, glass, a box, a cone and a polygon under two lights.
 const SCENE: &str = "v 0 1 6 at 0 0.5 0 up 0 1 0 angle 40 resolution 60 80
 b 0.2 0.3 0.5
 l -3 5 4 0.8  l 4 3 2 0.4
@@ -43,7 +43,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Standard output of a command that succeeds and complains of nothing.
+/// Returns standard output of a command that succeeds and prints no error.
 fn done(folder: &Path, line: &str) -> String {
     let output = run(folder, line);
     assert_eq!(text(&output.stderr), "", "{line}");
@@ -51,7 +51,7 @@ fn done(folder: &Path, line: &str) -> String {
     text(&output.stdout)
 }
 
-/// The statistics of a rendering.
+/// Returns the statistics of a rendering.
 fn stats(folder: &Path, line: &str) -> Value {
     serde_json::from_str(&done(
         folder,
@@ -60,7 +60,7 @@ fn stats(folder: &Path, line: &str) -> Value {
     .unwrap()
 }
 
-/// Standard error of a command that fails with a code and prints nothing.
+/// Returns standard error of a command that fails with this code and prints nothing.
 fn failed(folder: &Path, line: &str, code: i32) -> String {
     let output = run(folder, line);
     assert_eq!(output.status.code(), Some(code), "{line}");
@@ -91,7 +91,7 @@ fn keys(value: &Value) -> Vec<&str> {
 }
 
 #[test]
-fn without_flags_a_png_of_the_scenes_name_and_a_summary() {
+fn without_flags_it_writes_a_png_of_the_scenes_name_and_prints_a_summary() {
     let folder = folder();
     let summary = done(folder.path(), "render a.scene");
     assert_eq!(names(folder.path()), ["a.png", "a.scene"]);
@@ -181,7 +181,7 @@ fn tiles_are_squares_and_smaller_for_many_threads() {
 }
 
 #[test]
-fn threads_schedules_and_tiles_change_nothing() {
+fn threads_schedules_and_tiles_do_not_change_the_picture() {
     let folder = folder();
     let first = stats(folder.path(), "--threads 1 --tile-rows 1 -o first.ppm");
     let bytes = fs::read(folder.path().join("first.ppm")).unwrap();
@@ -211,11 +211,11 @@ fn threads_schedules_and_tiles_change_nothing() {
 }
 
 #[test]
-fn every_arithmetic_and_every_tree_sees_the_scene() {
+fn every_arithmetic_and_every_tree_shows_the_scene() {
     let folder = folder();
     done(folder.path(), "render a.scene --arith f64 -o f64.png");
     let reference = picture(folder.path(), "f64.png");
-    // The least ratio in dB: the coarsest formats show little more than that there is something.
+    // The lowest PSNR in dB: the coarsest formats show little more than that something is there.
     let ariths = [
         ("f64", 99.0),
         ("f32", 50.0),
@@ -276,7 +276,7 @@ fn every_format_holds_the_picture() {
         assert!(ratio >= least, "{name}: {ratio:.1} dB");
     }
     assert!(picture(folder.path(), "a.pfm").intensities().is_some());
-    // A reader that nobody here wrote.
+    // An independent reader.
     let version = Command::new("convert").arg("-version").output();
     if !version.is_ok_and(|output| text(&output.stdout).contains("Version: ImageMagick")) {
         eprintln!("not tested: ImageMagick's convert, which reads the formats too, is missing");
@@ -294,7 +294,7 @@ fn every_format_holds_the_picture() {
 }
 
 #[test]
-fn the_view_is_what_was_asked_for() {
+fn the_settings_determine_the_view() {
     let folder = folder();
     let four = stats(folder.path(), "--pixels-per-ray 4 -o four.ppm");
     let taken = picture(folder.path(), "four.ppm");
@@ -326,7 +326,7 @@ fn the_view_is_what_was_asked_for() {
 }
 
 #[test]
-fn a_scene_that_does_not_fit_is_told_with_the_value() {
+fn a_scene_that_does_not_fit_is_reported_with_the_value() {
     let folder = folder();
     let bright = SCENE.replace("l -3 5 4 0.8", "l -3 5 4 90");
     fs::write(folder.path().join("bright.scene"), bright).unwrap();
@@ -339,7 +339,7 @@ fn a_scene_that_does_not_fit_is_told_with_the_value() {
 }
 
 #[test]
-fn mistakes_are_told_and_leave_nothing_behind() {
+fn mistakes_are_reported_and_leave_no_files() {
     let folder = folder();
     fs::write(
         folder.path().join("bad.scene"),
@@ -378,10 +378,10 @@ fn mistakes_are_told_and_leave_nothing_behind() {
     assert_eq!(names(folder.path()), ["a.scene", "bad.scene"]);
 }
 
-/// Ctrl-C while a picture is traced that would take minutes.
+/// Ctrl-C while tracing a picture that would take minutes.
 #[cfg(target_os = "linux")]
 #[test]
-fn an_interrupt_leaves_no_half_file() {
+fn an_interrupt_leaves_no_incomplete_file() {
     use std::process::Stdio;
     use std::time::Duration;
 
@@ -394,7 +394,7 @@ fn an_interrupt_leaves_no_half_file() {
     .stderr(Stdio::piped())
     .spawn()
     .unwrap();
-    // Only once it listens.
+    // Only after it has installed its signal handler.
     let listens = || {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
@@ -416,7 +416,7 @@ fn an_interrupt_leaves_no_half_file() {
 }
 
 #[test]
-fn a_sweep_over_schedules_is_told_drawn_and_written() {
+fn a_sweep_over_schedules_is_printed_drawn_and_written() {
     let folder = folder();
     let line =
         "schedule a.scene --processors 1,8 --tile-rows 1..8 --tiles 8 --policy static,dynamic";
@@ -430,18 +430,18 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
     let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();
     // Two policies, five tiles, two numbers of processors.
     assert_eq!(runs.lines().count(), 1 + 2 * 5 * 2);
-    // Something is to be seen in 56 of 60 rows: a tile of 64 has no more, and costs no more to hand out.
+    // Objects are visible in 56 of 60 rows: a tile of 64 rows has no more, and hand-outs cost no more.
     let per_pixel = |flags: &str| {
         let line = "schedule a.scene --processors 1 --tile-rows 64 --policy dynamic --json";
-        let told = done(folder.path(), &format!("{line} {flags}"));
-        let told: Value = serde_json::from_str(&told).unwrap();
-        let run = told["runs"].as_array().unwrap().iter();
+        let json = done(folder.path(), &format!("{line} {flags}"));
+        let json: Value = serde_json::from_str(&json).unwrap();
+        let run = json["runs"].as_array().unwrap().iter();
         let mut strips = run.filter(|run| run["tile"]["columns"].is_null());
         strips.next().unwrap()["time"].as_f64().unwrap()
     };
     let pixels = per_pixel("--per-pixel 100") - per_pixel("");
     assert!((pixels / 100.0 - 80.0 * 56.0).abs() < 1e-3, "{pixels}");
-    // On one processor none of them comes in a message.
+    // On one processor there are no messages.
     assert_eq!(per_pixel("--per-pixel 100 --messages"), per_pixel(""));
     let fewer = done(
         folder.path(),

@@ -1,8 +1,8 @@
-//! The firmware on every board: it builds without a warning, renders the same bytes as the host,
-//! in fixed point and in floats, soft and hard, without divisions in fixed point and with the floating-point
-//! unit's square roots, and stays within the memory that was promised.
+//! The firmware on every board: it builds without warnings, renders the same bytes as the host in fixed point and in
+//! floats (soft and hard), needs no divisions in fixed point, uses the floating-point unit's square roots, and stays
+//! within the documented memory.
 //!
-//! Boards whose target is not installed, or whose emulator is missing, are skipped; which, is told.
+//! Boards whose target is not installed, or whose emulator is missing, are skipped and reported.
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind};
 use octray_core::accel::BuildOptions;
@@ -19,7 +19,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-/// A board of the emulator.
+/// A board that the emulator supports.
 #[derive(Clone, Copy, Debug)]
 struct Board {
     target: &'static str,
@@ -55,7 +55,7 @@ impl Board {
         }
     }
 
-    /// What is missing, if anything.
+    /// Returns how to install what is missing, if anything.
     fn missing(self) -> Option<String> {
         let found = Command::new("rustc")
             .args(["--print", "target-libdir", "--target", self.target])
@@ -71,7 +71,7 @@ impl Board {
     }
 }
 
-/// What is rendered.
+/// The rendering.
 #[derive(Clone, Copy, Debug)]
 struct Job {
     scene: &'static str,
@@ -80,7 +80,7 @@ struct Job {
     tree: &'static str,
 }
 
-/// One board is built for at a time: they share a folder.
+/// Locks the build folder, which all boards share.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
@@ -121,16 +121,16 @@ fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
         .env_remove("RUSTFLAGS")
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{board:?} {job:?}\n{told}");
-    assert!(!told.contains("warning"), "{board:?} {job:?}\n{told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{board:?} {job:?}\n{stderr}");
+    assert!(!stderr.contains("warning"), "{board:?} {job:?}\n{stderr}");
     folder
         .join(board.target)
         .join("firmware")
         .join("octray-firmware")
 }
 
-/// Runs it; what it told, line by line. A run that does not end in time is a failure.
+/// Runs it and returns its output, line by line. A run that exceeds the timeout is a failure.
 fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
     let mut command = Command::new(board.emulator());
     command.args(["-M", board.machine]);
@@ -143,14 +143,14 @@ fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
         .args(["-icount", "shift=0", "-kernel"])
         .arg(firmware);
     let output = run_for(command, Duration::from_secs(120));
-    let told = [&*output.stdout, &*output.stderr].concat();
-    let told = String::from_utf8_lossy(&told);
+    let text = [&*output.stdout, &*output.stderr].concat();
+    let text = String::from_utf8_lossy(&text);
     assert!(
         output.status.success(),
-        "{board:?}: {}\n{told}",
+        "{board:?}: {}\n{text}",
         output.status
     );
-    told.lines()
+    text.lines()
         .filter_map(|line| line.split_once(' '))
         .map(|(name, value)| (name.into(), value.into()))
         .collect()
@@ -174,14 +174,15 @@ fn run_for(mut command: Command, time: Duration) -> Output {
     child.wait_with_output().unwrap()
 }
 
-fn value<'a>(told: &'a [(String, String)], name: &str) -> &'a str {
-    told.iter()
+fn value<'a>(lines: &'a [(String, String)], name: &str) -> &'a str {
+    lines
+        .iter()
         .find(|(n, _)| n == name)
         .map(|(_, value)| &**value)
-        .unwrap_or_else(|| panic!("no {name} in {told:?}"))
+        .unwrap_or_else(|| panic!("no {name} in {lines:?}"))
 }
 
-/// The hash of the picture that the host makes, with the host's own tree.
+/// Returns the hash of the host's picture, with the host's own tree.
 fn hash_here<S: Quantize>(job: Job) -> String {
     let scene = octray_scenes::read(root().join(job.scene)).unwrap();
     let (width, height) = job.size;
@@ -228,7 +229,7 @@ fn hash_here<S: Quantize>(job: Job) -> String {
     format!("{hash:016x}")
 }
 
-/// Renders on every board, and compares with the host. What was built is looked at, too.
+/// Renders on every board, compares with the host, and passes each program to `look`.
 fn same_everywhere(job: Job, expected: &str, look: impl Fn(Board, &[u8])) {
     let _alone = alone();
     for board in BOARDS {
@@ -238,13 +239,13 @@ fn same_everywhere(job: Job, expected: &str, look: impl Fn(Board, &[u8])) {
         }
         let firmware = build(board, job);
         look(board, &fs::read(&firmware).unwrap());
-        let told = emulate(board, &firmware);
-        assert_eq!(value(&told, "hash"), expected, "{board:?} {job:?}");
-        assert_eq!(value(&told, "arith"), job.arith);
+        let lines = emulate(board, &firmware);
+        assert_eq!(value(&lines, "hash"), expected, "{board:?} {job:?}");
+        assert_eq!(value(&lines, "arith"), job.arith);
     }
 }
 
-/// No division of the compiler's library is linked, not even outside of the tracer.
+/// Checks that no division of the compiler's library is linked, not even outside of the tracer.
 fn divides_by_no_routine(board: Board, elf: &[u8]) {
     let elf = object::File::parse(elf).unwrap();
     let names: Vec<_> = elf.symbols().filter_map(|s| s.name().ok()).collect();
@@ -271,12 +272,12 @@ fn divides_by_no_routine(board: Board, elf: &[u8]) {
     assert!(divides.is_empty(), "{board:?}: {divides:?}");
 }
 
-/// Where there is a unit for floats, its instruction takes the square roots, not libm.
+/// Checks that square roots use the instruction of the floating-point unit, not libm.
 fn takes_roots_by_the_unit(board: Board, elf: &[u8]) {
     let is_root: fn(u32) -> bool = match board.target {
-        // VSQRT.F32; registers left open. The first half word comes first.
+        // VSQRT.F32, with any registers. The first half-word comes first.
         "thumbv7em-none-eabihf" => |word| word.rotate_left(16) & 0xffbf_0fd0 == 0xeeb1_0ac0,
-        // FSQRT.S; registers and rounding mode left open.
+        // FSQRT.S, with any registers and rounding mode.
         "riscv32imafc-unknown-none-elf" => |word| word & 0xfff0_007f == 0x5800_0053,
         _ => return,
     };
@@ -284,7 +285,7 @@ fn takes_roots_by_the_unit(board: Board, elf: &[u8]) {
     let found = (elf.sections())
         .filter(|section| section.kind() == SectionKind::Text)
         .filter_map(|section| section.data().ok())
-        // Instructions begin at even addresses.
+        // Instructions start at even addresses.
         .flat_map(|code| (0..code.len() / 2).filter_map(|i| code[2 * i..].first_chunk()))
         .any(|bytes| is_root(u32::from_le_bytes(*bytes)));
     assert!(found, "{board:?}: no instruction for square roots");
@@ -320,9 +321,9 @@ fn floats_are_the_same_everywhere() {
     same_everywhere(job, &hash_here::<f32>(job), takes_roots_by_the_unit);
 }
 
-/// The firmware's own routines for floats and the compiler's agree, where either are used.
+/// The firmware's own float routines and the compiler's agree on boards that use either.
 #[test]
-fn emulated_floats_are_the_compilers() {
+fn emulated_floats_equal_the_compilers() {
     let _alone = alone();
     let job = Job {
         scene: "scenes/glass.scene",
@@ -336,8 +337,8 @@ fn emulated_floats_are_the_compilers() {
             eprintln!("skipped {board:?}: {install}");
             continue;
         }
-        let told = emulate(board, &build_with(board, job, &["--no-default-features"]));
-        assert_eq!(value(&told, "hash"), expected, "{board:?}");
+        let lines = emulate(board, &build_with(board, job, &["--no-default-features"]));
+        assert_eq!(value(&lines, "hash"), expected, "{board:?}");
         let own = build(board, job);
         let bytes = fs::read(&own).unwrap();
         let symbols = String::from_utf8_lossy(&bytes);
@@ -363,12 +364,12 @@ fn a_tree_may_be_built_on_the_device_or_left_out() {
     };
     let expected = hash_here::<Fixed<16, PerThread>>(job("packed"));
     for tree in ["device", "none"] {
-        let told = emulate(MICROBIT, &build(MICROBIT, job(tree)));
-        assert_eq!(value(&told, "hash"), expected, "{tree}");
+        let lines = emulate(MICROBIT, &build(MICROBIT, job(tree)));
+        assert_eq!(value(&lines, "hash"), expected, "{tree}");
     }
 }
 
-/// Bytes of flash: everything that is loaded.
+/// Returns the bytes of flash: everything that is loaded.
 fn flash(firmware: &Path) -> u64 {
     sum_sections(firmware, |name| {
         !name.starts_with(".bss") && !name.starts_with(".uninit")
@@ -410,15 +411,15 @@ fn figure_22_fits_the_smallest_board() {
         tree: "auto",
     };
     let firmware = build(MICROBIT, job);
-    let told = emulate(MICROBIT, &firmware);
-    let stack: u64 = value(&told, "stack").parse().unwrap();
+    let lines = emulate(MICROBIT, &firmware);
+    let stack: u64 = value(&lines, "stack").parse().unwrap();
     let (flash, ram) = (flash(&firmware), ram(&firmware) + stack);
     assert!(flash <= 32 << 10, "{flash} bytes of flash");
     assert!(ram <= 8 << 10, "{ram} bytes of RAM");
 }
 
 #[test]
-fn what_a_scene_does_without_is_not_linked() {
+fn features_that_a_scene_lacks_are_not_linked() {
     let _alone = alone();
     if let Some(install) = MICROBIT.missing() {
         eprintln!("skipped: {install}");

@@ -1,6 +1,6 @@
-//! A small picture of every scene, as it was when somebody last looked at it.
+//! Compares a small picture of every scene with the committed one.
 //!
-//! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` anew; look at them before committing.
+//! `OCTRAY_UPDATE_GOLDEN=1` renders the pictures in `golden/` again; look at them before committing.
 
 use octray_prepare::Arith;
 use octray_render::interrupt::Interrupt;
@@ -15,14 +15,14 @@ use std::path::{Path, PathBuf};
 /// Rows of the pictures; their proportions are the scenes' own.
 const HEIGHT: u32 = 90;
 
-/// Where the benchmark of speed has the hashes of its pictures.
+/// The file with the hashes of the speed benchmark's pictures.
 const BENCHMARK: &str = "../host/render/benches/pictures.csv";
 
-/// The most objects of a scene of the benchmark that is traced here, too.
+/// Scenes of the benchmark with more objects are not traced here.
 const MOST_OBJECTS: usize = 1000;
 
-/// Arithmetic is the same on every machine. But where a formula is changed for the better, pixels
-/// at edges may change sides: one in 500 may differ by more than a level.
+/// Arithmetic is the same on every machine. But when a formula is improved, pixels at edges may change: one in 500 may
+/// differ by more than a level.
 const SHARE: f64 = 0.002;
 
 fn folder() -> PathBuf {

@@ -1,5 +1,5 @@
-//! In `f64` octray makes the oracle's picture: at least 99.9 % of the pixels within one level, and
-//! as many rays of each kind but for a few.
+//! In `f64` octray renders the oracle's picture: at least 99.9 % of the pixels are within one level, and the numbers of
+//! rays of each kind are nearly equal.
 
 use octray_prepare::{Arith, PixelsPerRay};
 use octray_render::stats::Rays;
@@ -8,7 +8,7 @@ use octray_tests::shot::{self, Shot};
 use octray_tests::strew;
 use std::fs;
 
-/// Random scenes; `OCTRAY_SEEDS=from..to` tries others.
+/// The seeds of random scenes; `OCTRAY_SEEDS=from..to` selects others.
 fn seeds() -> std::ops::Range<u64> {
     let chosen = std::env::var("OCTRAY_SEEDS").ok().map(|text| {
         let (from, to) = text.split_once("..").expect("from..to");
@@ -18,7 +18,7 @@ fn seeds() -> std::ops::Range<u64> {
 }
 
 #[test]
-fn random_scenes_look_as_the_model_says() {
+fn random_scenes_match_the_model() {
     let mut failures = Vec::new();
     for seed in seeds() {
         let source = strew::picture(seed);
@@ -39,7 +39,7 @@ fn random_scenes_look_as_the_model_says() {
 }
 
 #[test]
-fn the_scenes_look_as_the_model_says() {
+fn the_scenes_match_the_model() {
     let mut failures = Vec::new();
     for path in shot::scene_files() {
         let source = fs::read_to_string(&path).unwrap();
@@ -49,7 +49,7 @@ fn the_scenes_look_as_the_model_says() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// What is wrong with octray's picture of a scene.
+/// Returns what is wrong with octray's picture of a scene.
 fn compare(name: &str, source: &str, shot: &Shot) -> Option<String> {
     let scene = octray_scenes::parse(source)
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.draw(name, source)));
@@ -90,8 +90,8 @@ fn compare(name: &str, source: &str, shot: &Shot) -> Option<String> {
     ))
 }
 
-/// Which numbers of rays differ by more than a few. Octray sends none to pixels where nothing can
-/// be seen, so that its rays from the eye may be fewer.
+/// Returns which numbers of rays differ by more than a few. Octray traces no rays for pixels that cannot show an
+/// object, so it may have fewer primary rays.
 fn unlike(ours: &Rays, theirs: &Counts) -> Option<String> {
     let kinds = [
         ("shadow", ours.shadow, theirs.shadow),

@@ -1,5 +1,5 @@
-//! `octray render --mpi` on the ranks of an MPI job: the picture is that of one machine, and nothing is left
-//! of a job that fails. With `--features mpi`, where Open MPI is installed.
+//! `octray render --mpi` on the ranks of an MPI job: the picture equals that of one machine, and a failed job leaves
+//! nothing behind. Needs `--features mpi` and Open MPI.
 #![cfg(feature = "mpi")]
 
 use serde_json::Value;
@@ -23,7 +23,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// As many ranks as wanted, whatever the machine has.
+/// Returns a command with any number of ranks on this machine.
 fn mpirun(folder: &Path) -> Command {
     let mut command = Command::new("mpirun");
     command
@@ -38,7 +38,7 @@ fn run(folder: &Path, ranks: u32, line: &str) -> Output {
     command.args(line.split_whitespace()).output().unwrap()
 }
 
-/// The statistics of a rendering on one machine.
+/// Returns the statistics of a rendering without MPI.
 fn alone(folder: &Path, line: &str) -> Value {
     let mut command = Command::new(OCTRAY);
     command.current_dir(folder).args(line.split_whitespace());
@@ -64,7 +64,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn ranks_draw_the_picture_of_one_machine() {
     let folder = folder();
     let path = folder.path();
-    let packings = [
+    let option_sets = [
         "",
         "--schedule static --tile-rows 4",
         "--schedule work-stealing --tile-rows 5 --tile-columns 7",
@@ -75,14 +75,14 @@ fn ranks_draw_the_picture_of_one_machine() {
             &format!("render a.scene --arith {arith} -o one.{ending}"),
         );
         let one = fs::read(path.join("one").with_extension(ending)).unwrap();
-        for (ranks, packing) in [1, 2, 4].into_iter().zip(packings) {
+        for (ranks, options) in [1, 2, 4].into_iter().zip(option_sets) {
             let line = format!(
-                "render a.scene --mpi --arith {arith} --stats json {packing} -o b.{ending}"
+                "render a.scene --mpi --arith {arith} --stats json {options} -o b.{ending}"
             );
             let output = run(path, ranks, &line);
             assert!(output.status.success(), "{ranks}: {}", text(&output.stderr));
             let many = fs::read(path.join("b").with_extension(ending)).unwrap();
-            assert!(one == many, "{ranks} ranks {packing}: another picture");
+            assert!(one == many, "{ranks} ranks {options}: another picture");
             let stats: Value = serde_json::from_slice(&output.stdout).unwrap();
             assert_eq!(stats["threads"], ranks);
             let idle = stats["idle"].as_array().map(Vec::len);
@@ -97,11 +97,11 @@ fn ranks_draw_the_picture_of_one_machine() {
             if count("count") > 0 {
                 assert!(messages["hand_out"].as_f64().unwrap() > 0.0);
             }
-            if packing.contains("static") {
-                // Of two ranks the second one has every other tile.
+            if options.contains("static") {
+                // With two ranks, the second one has every other tile.
                 assert_eq!((ranks, count("count")), (2, tiles / 2));
             }
-            // In the same tiles, whose number tests depend on.
+            // In the same tiles, because the number of tests depends on them.
             let rows = &stats["tile"]["rows"];
             let columns = match stats["tile"]["columns"].as_u64() {
                 Some(columns) => format!("--tile-columns {columns}"),
@@ -114,7 +114,7 @@ fn ranks_draw_the_picture_of_one_machine() {
             for field in ["tiles", "rays", "steps", "tests", "hits", "saturations"] {
                 assert_eq!(
                     stats[field], same[field],
-                    "{ranks} ranks {packing}: {field}"
+                    "{ranks} ranks {options}: {field}"
                 );
             }
         }
@@ -152,14 +152,18 @@ fn a_scene_with_mistakes_ends_all_ranks_with_one_message() {
     fs::write(folder.path().join("bad.scene"), "v 0 0 -9 blob 1").unwrap();
     let output = run(folder.path(), 3, "render bad.scene --mpi");
     assert_eq!(output.status.code(), Some(1));
-    let told = text(&output.stderr);
-    assert_eq!(told.matches("bad.scene:1:10: error").count(), 1, "{told}");
+    let stderr = text(&output.stderr);
+    assert_eq!(
+        stderr.matches("bad.scene:1:10: error").count(),
+        1,
+        "{stderr}"
+    );
     assert_eq!(names(folder.path()), ["a.scene", "bad.scene"]);
 }
 
-/// One rank is killed in the midst of its work.
+/// One rank is killed while it works.
 #[test]
-fn a_rank_that_dies_is_told_and_leaves_no_picture() {
+fn a_rank_that_dies_is_reported_and_leaves_no_picture() {
     let folder = folder();
     let path = folder.path();
     fs::write(path.join("b.png"), "old").unwrap();
@@ -193,16 +197,16 @@ fn a_rank_that_dies_is_told_and_leaves_no_picture() {
         );
         sleep(Duration::from_millis(20));
     };
-    // The picture takes minutes; this is in its midst.
+    // The picture takes minutes; after this time it is incomplete.
     sleep(Duration::from_secs(2));
     let kill = Command::new("kill").args(["-KILL", pid.trim()]).status();
     assert!(kill.unwrap().success());
     let output = job.wait_with_output().unwrap();
-    let told = text(&output.stderr);
-    assert!(!output.status.success(), "{told}");
+    let stderr = text(&output.stderr);
+    assert!(!output.status.success(), "{stderr}");
     assert!(
-        told.contains("rank 1") && told.contains("signal 9"),
-        "{told}"
+        stderr.contains("rank 1") && stderr.contains("signal 9"),
+        "{stderr}"
     );
     assert_eq!(names(path), ["a.scene", "b.png", "pid"]);
     assert_eq!(fs::read(path.join("b.png")).unwrap(), b"old");

@@ -1,48 +1,48 @@
-//! A plugin of QEMU's translator (its plugin interface, version 1) that counts the instructions a
-//! guest executes between the functions `octray_resume` and `octray_pause`, by kind and by
-//! function. Counting is exact, and the same in every run.
+//! A plugin for QEMU's translator (plugin interface, version 1). It counts the instructions that a guest executes
+//! between the functions `octray_resume` and `octray_pause`, by kind and by function. Counts are exact, and the same in
+//! every run.
 //!
 //! ```text
 //! qemu-system-arm … -plugin liboctray_count.so,out=FILE,watch=nearest:kernel_*
 //! ```
 //!
-//! At the guest's end FILE holds
+//! When the guest ends, FILE holds
 //!
-//! | line | what |
+//! | line | meaning |
 //! | --- | --- |
-//! | `instructions N` | all of them |
-//! | `class NAME N`, `kind NAME N` | those of each [`octray_instruction::Class`], and of each [`Kind`] |
-//! | `taken N`, `moved N` | conditional branches that were taken; registers that loads and stores of several moved |
+//! | `instructions N` | all instructions |
+//! | `class NAME N`, `kind NAME N` | instructions of each [`octray_instruction::Class`], and of each [`Kind`] |
+//! | `taken N`, `moved N` | taken conditional branches; registers moved by loads and stores of several registers |
 //! | `calls N M NAME` | calls of a watched function, and the instructions from their entries to their returns |
-//! | `function N NAME` | instructions in each function's own code, the costliest first |
+//! | `function N NAME` | instructions in each function's own code, the most expensive first |
 
+mod counters;
 mod path;
 mod qemu;
-mod tally;
 
+use counters::{Counters, What};
 use octray_instruction::{Kind, moved};
 use path::{Block, Path};
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
 use std::{fs, ptr, slice};
-use tally::{Tally, What};
 
-/// The version of the interface that this plugin speaks, for QEMU.
+/// The version of QEMU's plugin interface that this plugin uses.
 #[unsafe(no_mangle)]
 pub static qemu_plugin_version: c_int = 1;
 
 struct State {
     out: String,
     watch: Vec<String>,
-    tally: Tally,
+    counters: Counters,
     path: Path,
 }
 
 static STATE: Mutex<State> = Mutex::new(State {
     out: String::new(),
     watch: Vec::new(),
-    tally: Tally::new(),
+    counters: Counters::new(),
     path: Path::new(),
 });
 
@@ -54,7 +54,7 @@ fn with_state<T>(f: impl FnOnce(&mut State) -> T) -> T {
 /// Called by QEMU when it loads the plugin.
 ///
 /// # Safety
-/// `argv` must be `argc` strings that end in a null byte, as QEMU hands over.
+/// `argv` must be `argc` strings that end in a null byte; QEMU guarantees it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn qemu_plugin_install(
     id: u64,
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn qemu_plugin_install(
         _ => &[],
     };
     for &argument in arguments {
-        // SAFETY: the same.
+        // SAFETY: by this function's contract.
         let text = unsafe { CStr::from_ptr(argument) }.to_string_lossy();
         if let Some(path) = text.strip_prefix("out=") {
             with_state(|state| state.out = path.to_owned());
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn qemu_plugin_install(
         }
     }
     if with_state(|state| state.out.is_empty()) {
-        eprintln!("octray-count: say out=FILE");
+        eprintln!("octray-count: expected out=FILE");
         return 1;
     }
     // SAFETY: the callbacks live as long as the plugin.
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn qemu_plugin_install(
     0
 }
 
-/// A block of the guest has been translated: each of its instructions gets its counter.
+/// Handles the translation of a block: gives a counter to each of its instructions.
 extern "C" fn translated(_: u64, block: *mut qemu::Block) {
     let mut seen = Block {
         start: 0,
@@ -131,18 +131,23 @@ extern "C" fn translated(_: u64, block: *mut qemu::Block) {
             }
         }
         let seen: *mut Block = Box::leak(Box::new(seen));
-        qemu::qemu_plugin_register_vcpu_tb_exec_cb(block, come, qemu::NO_REGISTERS, seen.cast());
+        qemu::qemu_plugin_register_vcpu_tb_exec_cb(
+            block,
+            block_entered,
+            qemu::NO_REGISTERS,
+            seen.cast(),
+        );
     }
 }
 
 fn counter(what: What) -> &'static AtomicU64 {
-    with_state(|state| state.tally.counter(what))
+    with_state(|state| state.counters.counter(what))
 }
 
 /// # Safety
 /// `instruction` must be of the block that is being translated.
 unsafe fn add(instruction: *mut qemu::Instruction, counter: &'static AtomicU64, n: u64) {
-    // SAFETY: by this function's contract; boards have one core, so that nobody else adds.
+    // SAFETY: by this function's contract; boards have one core, so there is no concurrent addition.
     unsafe {
         qemu::qemu_plugin_register_vcpu_insn_exec_inline(
             instruction,
@@ -156,7 +161,7 @@ unsafe fn add(instruction: *mut qemu::Instruction, counter: &'static AtomicU64, 
 /// # Safety
 /// `instruction` must be of the block that is being translated.
 unsafe fn mark(instruction: *mut qemu::Instruction, then: qemu::Executed) {
-    // SAFETY: by this function's contract; there is no data for the callback.
+    // SAFETY: by this function's contract; the callback has no data.
     unsafe {
         qemu::qemu_plugin_register_vcpu_insn_exec_cb(
             instruction,
@@ -179,22 +184,22 @@ unsafe fn text(text: *const c_char) -> String {
         .into_owned()
 }
 
-extern "C" fn come(_: c_uint, block: *mut c_void) {
+extern "C" fn block_entered(_: c_uint, block: *mut c_void) {
     // SAFETY: `translated` registers a block that is never freed.
     let block: &'static Block = unsafe { &*block.cast_const().cast() };
-    with_state(|state| state.path.come(block, &mut state.tally));
+    with_state(|state| state.path.enter(block, &mut state.counters));
 }
 
 extern "C" fn resume(_: c_uint, _: *mut c_void) {
-    with_state(|state| state.tally.run(true));
+    with_state(|state| state.counters.run(true));
 }
 
 extern "C" fn pause(_: c_uint, _: *mut c_void) {
-    with_state(|state| state.tally.run(false));
+    with_state(|state| state.counters.run(false));
 }
 
 extern "C" fn at_exit(_: u64, _: *mut c_void) {
-    let (out, report) = with_state(|state| (state.out.clone(), state.tally.report()));
+    let (out, report) = with_state(|state| (state.out.clone(), state.counters.report()));
     if let Err(error) = fs::write(&out, report) {
         eprintln!("octray-count: cannot write {out}: {error}");
     }

@@ -1,33 +1,33 @@
-//! The guest's way from block to block: which conditional branches were taken, and what calls of
-//! watched functions cost, the functions that they call included.
+//! The guest's path from block to block: finds taken conditional branches, and the cost of calls of watched functions,
+//! including the functions that they call.
 
-use crate::tally::{Calls, Tally};
+use crate::counters::{Calls, Counters};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A translated block of instructions.
 pub(crate) struct Block {
     /// Its address.
     pub(crate) start: u64,
-    /// The address behind its last instruction.
+    /// The address after its last instruction.
     pub(crate) next: u64,
-    /// Its instructions.
+    /// The number of its instructions.
     pub(crate) length: u64,
-    /// Where to add if the conditional branch at its end is taken.
+    /// The counter to increment if the conditional branch at its end is taken.
     pub(crate) taken: Option<&'static AtomicU64>,
     /// The watched function it belongs to.
     pub(crate) watched: Option<String>,
 }
 
-/// A call that has not returned yet.
+/// A call that has not returned.
 struct Call {
     function: String,
-    /// The address at which its caller goes on.
+    /// The address at which its caller continues.
     back: u64,
-    /// Instructions executed before it.
+    /// The number of instructions executed before it.
     before: u64,
 }
 
-/// Where the guest is.
+/// The position of the guest.
 pub(crate) struct Path {
     previous: Option<&'static Block>,
     call: Option<Call>,
@@ -43,10 +43,10 @@ impl Path {
         }
     }
 
-    /// The guest comes to a block. A watched function has been called where one of its blocks is
-    /// reached from elsewhere, and returns behind the block from which it was reached; a watched
-    /// function called within is part of the first one's cost.
-    pub(crate) fn come(&mut self, block: &'static Block, tally: &mut Tally) {
+    /// Records that the guest enters a block. A watched function is called when one of its blocks is reached from
+    /// another function, and returns to the address after the block that called it. Calls of watched functions during
+    /// such a call are part of its cost.
+    pub(crate) fn enter(&mut self, block: &'static Block, counters: &mut Counters) {
         let previous = self.previous.replace(block);
         if let Some(Block {
             next,
@@ -58,12 +58,12 @@ impl Path {
             taken.fetch_add(1, Ordering::Relaxed);
         }
         if let Some(call) = self.call.take_if(|call| call.back == block.start) {
-            let calls: &mut Calls = tally.calls.entry(call.function).or_default();
+            let calls: &mut Calls = counters.calls.entry(call.function).or_default();
             calls.count += 1;
             calls.instructions += self.executed - call.before;
         }
         if self.call.is_none()
-            && tally.running
+            && counters.running
             && let (Some(function), Some(previous)) = (&block.watched, previous)
             && previous.watched.as_ref() != Some(function)
         {
@@ -77,8 +77,8 @@ impl Path {
     }
 }
 
-/// Whether a demangled name is one of the patterns': the last part of the path, or with an
-/// asterisk the beginning of it.
+/// Returns whether a demangled name matches one of the patterns: the last part of the path, or with an asterisk its
+/// beginning.
 pub(crate) fn watched(name: &str, patterns: &[String]) -> bool {
     let last = name.rsplit("::").next().unwrap_or_default();
     patterns
@@ -104,16 +104,16 @@ mod tests {
     }
 
     #[test]
-    fn a_call_costs_what_happens_until_its_return() {
-        let (mut path, mut tally) = (Path::new(), Tally::new());
+    fn a_call_costs_all_instructions_until_its_return() {
+        let (mut path, mut counters) = (Path::new(), Counters::new());
         let caller = block(0, 2, None);
         let (callee, inner) = (block(100, 5, Some("f")), block(200, 7, Some("g")));
         let callee_goes_on = block(120, 3, Some("f"));
         let caller_goes_on = block(8, 1, None);
-        tally.running = true;
+        counters.running = true;
         for _ in 0..2 {
             for block in [caller, callee, inner, callee_goes_on, caller_goes_on] {
-                path.come(block, &mut tally);
+                path.enter(block, &mut counters);
             }
         }
         let calls = Calls {
@@ -121,14 +121,14 @@ mod tests {
             instructions: 2 * (5 + 7 + 3),
         };
         assert_eq!(
-            tally.calls.into_iter().collect::<Vec<_>>(),
+            counters.calls.into_iter().collect::<Vec<_>>(),
             [("f".to_owned(), calls)]
         );
     }
 
     #[test]
-    fn a_branch_is_taken_if_the_next_block_is_not_behind_it() {
-        let (mut path, mut tally) = (Path::new(), Tally::new());
+    fn a_branch_is_taken_if_another_block_than_the_following_one_is_next() {
+        let (mut path, mut counters) = (Path::new(), Counters::new());
         let taken: &'static AtomicU64 = Box::leak(Box::default());
         let fork = Box::leak(Box::new(Block {
             taken: Some(taken),
@@ -141,14 +141,14 @@ mod tests {
             }
         }));
         for next in [8, 40, 8, 40, 40] {
-            path.come(fork, &mut tally);
-            path.come(block(next, 1, None), &mut tally);
+            path.enter(fork, &mut counters);
+            path.enter(block(next, 1, None), &mut counters);
         }
         assert_eq!(taken.load(Ordering::Relaxed), 3);
     }
 
     #[test]
-    fn names_are_watched_by_their_last_part() {
+    fn names_are_matched_by_their_last_part() {
         let patterns = ["nearest".to_owned(), "kernel_*".to_owned()];
         for (name, expected) in [
             ("<octray_core::accel::CompactBvh8 as A<S>>::nearest", true),

@@ -1,4 +1,4 @@
-//! What is used of QEMU's plugin interface (`include/qemu/qemu-plugin.h`, version 1).
+//! The part of QEMU's plugin interface that is used (`include/qemu/qemu-plugin.h`, version 1).
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
 
@@ -8,13 +8,13 @@ pub(crate) struct Block {
     _opaque: [u8; 0],
 }
 
-/// An instruction of it.
+/// An instruction of a block.
 #[repr(C)]
 pub(crate) struct Instruction {
     _opaque: [u8; 0],
 }
 
-/// Called before an instruction or a block is executed, with the core's number and the registrant's data.
+/// A callback before an instruction or a block is executed; it receives the core's number and the registered data.
 pub(crate) type Executed = extern "C" fn(c_uint, *mut c_void);
 
 /// `QEMU_PLUGIN_INLINE_ADD_U64`.
@@ -57,6 +57,6 @@ unsafe extern "C" {
         counter: *mut c_void,
         operand: u64,
     );
-    /// GLib's, of which QEMU consists.
+    /// The function of GLib, which is part of QEMU.
     pub(crate) fn g_free(memory: *mut c_void);
 }

@@ -1,9 +1,9 @@
-//! Instructions by what they do, told by the disassembly.
+//! Classifies instructions by their disassembly.
 
 /// A class of instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// Between memory and any register.
+    /// Loads and stores of any registers.
     LoadStore,
     /// Jumps, calls and returns.
     Branch,
@@ -11,14 +11,14 @@ pub enum Class {
     Multiply,
     /// Integer division and remainder.
     Divide,
-    /// Floating-point unit, but for its loads and stores.
+    /// Instructions of the floating-point unit, except its loads and stores.
     Float,
-    /// The rest: moves, sums, shifts, comparisons.
+    /// The rest: moves, additions, shifts, comparisons.
     Other,
 }
 
 impl Class {
-    /// The class's name.
+    /// Returns the class's name.
     pub fn name(self) -> &'static str {
         match self {
             Self::LoadStore => "load-store",
@@ -31,7 +31,7 @@ impl Class {
     }
 }
 
-/// A kind of instructions, as tables of cycles tell them apart.
+/// A kind of instructions, as fine as tables of cycles distinguish them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A load of one word.
@@ -42,29 +42,29 @@ pub enum Kind {
     Store,
     /// A load or store of several registers.
     Multiple,
-    /// The same into the program counter among others: a return.
+    /// A load of several registers that include the program counter: a return.
     MultipleReturn,
-    /// A branch that is taken or not.
+    /// A conditional branch.
     BranchIf,
-    /// A branch to a fixed place.
+    /// An unconditional branch to a fixed address.
     Branch,
-    /// A call of a fixed place.
+    /// A call of a fixed address.
     Call,
-    /// A branch or call to where a register or a word of memory says.
+    /// A branch or call to an address in a register or in memory.
     Indirect,
-    /// 32 × 32 bits, of which 32 are kept.
+    /// A multiplication of 32 × 32 bits that keeps the lower 32.
     Multiply,
     /// The same with an addition or subtraction.
     MultiplyAdd,
-    /// 32 × 32 bits to 64, or to their upper half.
+    /// A multiplication of 32 × 32 bits that gives 64, or their upper half.
     MultiplyLong,
     /// The same with an addition.
     MultiplyLongAdd,
     /// Integer division and remainder.
     Divide,
-    /// Sums, products, comparisons, conversions and moves of the floating-point unit.
+    /// Additions, multiplications, comparisons, conversions and moves of the floating-point unit.
     Float,
-    /// Its product and sum in one.
+    /// Its fused multiply-add.
     FloatMultiplyAdd,
     /// Its division.
     FloatDivide,
@@ -98,12 +98,12 @@ impl Kind {
         Self::Other,
     ];
 
-    /// The kind of a [name](Self::name).
+    /// Returns the kind of a [name](Self::name).
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// The kind's name.
+    /// Returns the kind's name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Load => "load",
@@ -128,7 +128,7 @@ impl Kind {
         }
     }
 
-    /// The class it belongs to.
+    /// Returns the class of the kind.
     pub fn class(self) -> Class {
         match self {
             Self::Load | Self::LoadPart | Self::Store => Class::LoadStore,
@@ -143,7 +143,7 @@ impl Kind {
         }
     }
 
-    /// Of an instruction of Arm or RISC-V, disassembled.
+    /// Returns the kind of an instruction of Arm or RISC-V from its disassembly.
     pub fn of(disassembly: &str) -> Self {
         let (name, operands) = words(disassembly);
         let first = operands.split(',').next().unwrap_or_default().trim();
@@ -202,7 +202,7 @@ impl Kind {
     }
 }
 
-/// How many registers a disassembled instruction moves, if it can be several.
+/// Returns how many registers a disassembled load or store of several registers moves.
 pub fn moved(disassembly: &str) -> u64 {
     let (name, operands) = words(disassembly);
     match name {
@@ -211,9 +211,9 @@ pub fn moved(disassembly: &str) -> u64 {
     }
 }
 
-/// The mnemonic, without what follows a point, and the operands.
+/// Splits a disassembly into the mnemonic, without its suffix after a point, and the operands.
 fn words(disassembly: &str) -> (&str, &str) {
-    // RISC-V's begins with the encoding, in four or eight hexadecimal digits.
+    // RISC-V's disassembly begins with the encoding, in four or eight hexadecimal digits.
     let text = disassembly.trim();
     let text = match text.split_once(char::is_whitespace) {
         Some((word, rest))
@@ -228,7 +228,7 @@ fn words(disassembly: &str) -> (&str, &str) {
     (name.split('.').next().unwrap_or_default(), operands.trim())
 }
 
-/// The registers between braces.
+/// Returns the registers between braces.
 fn registers(operands: &str) -> Vec<&str> {
     let inside = operands
         .split_once('{')

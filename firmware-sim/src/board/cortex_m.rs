@@ -1,4 +1,4 @@
-//! Cortex-M: start-up by cortex-m-rt, which also switches the floating-point unit on.
+//! Cortex-M: cortex-m-rt starts the program and enables the floating-point unit.
 
 use cortex_m_rt::{ExceptionFrame, entry, exception};
 
@@ -9,6 +9,6 @@ fn main() -> ! {
 
 #[exception]
 unsafe fn HardFault(_: &ExceptionFrame) -> ! {
-    super::tell::text("fault\n");
+    super::print::text("fault\n");
     semihosting::process::exit(102)
 }

@@ -1,14 +1,14 @@
-//! Marks for an emulator's plugin: which instructions are to be counted.
+//! Marks for an emulator's plugin: they start and stop counting.
 
-/// From here on instructions count.
+/// Instructions count from here on.
 #[unsafe(no_mangle)]
 #[inline(never)]
 pub(super) extern "C" fn octray_resume() {
-    // The barrier keeps it from being folded with `octray_pause`.
+    // The barrier prevents that the linker folds it with `octray_pause`.
     core::hint::black_box(1u32);
 }
 
-/// From here on they do not.
+/// Instructions do not count from here on.
 #[unsafe(no_mangle)]
 #[inline(never)]
 pub(super) extern "C" fn octray_pause() {

@@ -1,4 +1,4 @@
-//! RISC-V: start-up by riscv-rt, which also switches the floating-point unit on.
+//! RISC-V: riscv-rt starts the program and enables the floating-point unit.
 
 use riscv_rt::{TrapFrame, entry};
 
@@ -7,9 +7,9 @@ fn main() -> ! {
     super::run()
 }
 
-/// Called for every exception, as none has a handler of its own.
+/// Handles every exception, as none has a handler of its own.
 #[unsafe(no_mangle)]
 extern "C" fn ExceptionHandler(_: &TrapFrame) -> ! {
-    super::tell::text("fault\n");
+    super::print::text("fault\n");
     semihosting::process::exit(102)
 }

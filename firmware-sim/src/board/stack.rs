@@ -1,5 +1,4 @@
-//! How deep the stack has ever been: the free memory below it is painted, and looked at again
-//! afterwards.
+//! Measures the maximum depth of the stack: the free memory below it is filled with a pattern and examined afterwards.
 
 use core::ptr;
 
@@ -11,20 +10,20 @@ unsafe extern "C" {
     static _stack_start: u32;
 }
 
-/// The lowest word that the stack may grow to.
+/// Returns the lowest word that the stack may grow to.
 fn lowest() -> *mut u32 {
     &raw mut __ebss
 }
 
-/// Paints all that the stack has not reached yet.
+/// Fills the memory that the stack has not reached yet.
 #[inline(never)]
 pub(super) fn paint() {
     let here = 0u32;
-    // Whatever this function itself keeps there stays below these words.
+    // This function's own part of the stack is above these words.
     let end = (&raw const here as usize).saturating_sub(128);
     let mut word = lowest();
     while (word as usize) < end {
-        // SAFETY: it lies between the variables and the stack; nobody else uses it.
+        // SAFETY: the word is between the variables and the stack; nothing else uses it.
         unsafe {
             ptr::write_volatile(word, PAINT);
             word = word.add(1);
@@ -32,12 +31,12 @@ pub(super) fn paint() {
     }
 }
 
-/// Bytes from the top of the stack to the lowest word that is not painted any more; `None` if
-/// there is no paint left.
+/// Returns the bytes from the top of the stack to the lowest overwritten word, or `None` if the whole pattern is
+/// overwritten.
 pub(super) fn deepest() -> Option<u32> {
     let top = &raw const _stack_start as usize;
     let mut word = lowest();
-    // SAFETY: it lies in memory, below the stack's top.
+    // SAFETY: the word is in memory, below the stack's top.
     while (word as usize) < top && unsafe { ptr::read_volatile(word) } == PAINT {
         // SAFETY: the same.
         word = unsafe { word.add(1) };

@@ -1,5 +1,5 @@
-//! Calls every kernel on all its inputs, by an address that the compiler does not know, and tells
-//! what the counts alone do not say: the number format, hits, and steps.
+//! Calls every kernel on all its inputs, by an address that the compiler does not know, and prints what the counts do
+//! not contain: the number format, hits, and steps.
 
 #[cfg(target_arch = "arm")]
 #[path = "../board/cortex_m.rs"]
@@ -8,12 +8,12 @@ mod inputs;
 mod kernels;
 #[path = "../board/marks.rs"]
 mod marks;
+#[path = "../board/print.rs"]
+#[expect(dead_code, reason = "pictures have a hash")]
+mod print;
 #[cfg(target_arch = "riscv32")]
 #[path = "../board/riscv.rs"]
 mod riscv;
-#[path = "../board/tell.rs"]
-#[expect(dead_code, reason = "pictures have a hash")]
-mod tell;
 
 use crate::baked::{S, SCENE, TREE, Tree};
 use core::hint::black_box;
@@ -25,7 +25,7 @@ use octray_core::ray::Ray;
 use octray_embedded::tally::Tally;
 use semihosting::process::exit;
 
-/// Calls, tells, exits.
+/// Calls the kernels, reports, exits.
 fn run() -> ! {
     marks::octray_resume();
     arithmetic();
@@ -33,20 +33,20 @@ fn run() -> ! {
     let steps = tree();
     lights();
     marks::octray_pause();
-    tell::text("arith ");
-    tell::text(crate::baked::ARITH);
+    print::text("arith ");
+    print::text(crate::baked::ARITH);
     for (name, hits) in ["sphere", "triangle", "polygon", "cone", "box"]
         .iter()
         .zip(hits)
     {
-        tell::number(name, hits);
+        print::number(name, hits);
     }
-    tell::number("steps", steps);
-    tell::text("\n");
+    print::number("steps", steps);
+    print::text("\n");
     exit(0)
 }
 
-/// Operations on numbers and vectors.
+/// Runs operations on numbers and vectors.
 fn arithmetic() {
     let binary: [fn(S, S) -> S; 4] = [
         kernels::kernel_empty,
@@ -76,7 +76,7 @@ fn arithmetic() {
     }
 }
 
-/// The hit test of one kind of shape, on rays of which some hit; how many.
+/// Runs the hit test of one kind of shape, on rays of which some hit. Returns the number of hits.
 fn shape(kind: ObjectKind) -> u32 {
     let kernel: fn(&Shapes, usize, &Ray<S>) -> Option<S> = match kind {
         ObjectKind::Sphere => kernels::kernel_sphere,
@@ -96,11 +96,12 @@ fn shape(kind: ObjectKind) -> u32 {
     hits
 }
 
-/// Walks through the tree that come to no object, and the same as far as the root; the steps beyond it.
+/// Runs traversals of the tree that reach no object, and the same as far as the root. Returns the steps beyond the
+/// root.
 fn tree() -> u32 {
     let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
-    // A node is two words and two for each child; the upper bits of the second tell how many.
+    // A node has two words and two more per child; the upper bits of the second word hold the number of children.
     let words = tree.words();
     let size = words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
     let root_alone = words.get(..size as usize).unwrap_or_default();
@@ -120,7 +121,7 @@ fn tree() -> u32 {
     steps
 }
 
-/// Surfaces in the light of one lamp and of two.
+/// Shades surfaces in the light of one lamp and of two.
 fn lights() {
     let kernels = [
         kernels::kernel_one_light as kernels::Lit,

@@ -1,12 +1,11 @@
-//! Calls single operations of the tracer on a board, each many times, in the arithmetic and on the
-//! scene that the build script has baked, for an emulator's plugin to count. Exit codes are those of
-//! `octray-firmware`.
+//! Calls single operations of the tracer on a board, each many times, for an emulator's plugin to count. Arithmetic and
+//! scene are those that the build script baked. Exit codes are those of `octray-firmware`.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
 mod board;
 
-// Linked for its names, which are those of the compiler's routines.
+// Linked for its symbols, which replace the compiler's routines.
 #[cfg(all(target_os = "none", feature = "fast-soft-float"))]
 use octray_soft_float as _;
 

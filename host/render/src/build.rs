@@ -20,7 +20,7 @@ pub enum PrepareError {
     #[error(transparent)]
     Overflow(#[from] Overflow),
     /// More objects than a packed tree can link.
-    #[error("a packed tree holds at most 32767 objects")]
+    #[error("a compact BVH holds at most 32767 objects")]
     Objects,
 }
 

@@ -1,6 +1,8 @@
 //! The first rank: sends the work to the others, hands out tiles, receives results, and traces meanwhile.
 
-use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
+use super::{
+    COUNTS, NONE, RESULT, RankCounts, RankJob, TILE, arrived, broadcast, buffer, failed, pause,
+};
 use crate::job::RenderJob;
 use mpi::point_to_point::{MatchedReceiveVec, Message, Status};
 use mpi::topology::SimpleCommunicator;
@@ -48,12 +50,12 @@ impl<'a> Leader<'a> {
     }
 
     /// Whether the others still wait for the scene.
-    pub(super) fn waited_for(&self) -> bool {
+    pub(super) fn others_wait(&self) -> bool {
         self.state == State::Waiting
     }
 
     /// Whether no other rank is working.
-    pub(super) fn alone(&self) -> bool {
+    pub(super) fn others_idle(&self) -> bool {
         self.state != State::Working
     }
 
@@ -87,53 +89,53 @@ impl<'a> Leader<'a> {
             let why = format!("tiles of {shape} are too large for a message: choose smaller ones");
             return Err(failed(why));
         }
-        let plan = Plan {
+        let rank_job = RankJob {
             scene: Cow::Borrowed(scene),
             settings: job.settings,
             shape,
             intensities,
         };
-        broadcast(self.world, Some(&plan));
+        broadcast(self.world, Some(&rank_job));
         self.state = State::Working;
         // As with threads, time before the first tile counts neither as idle nor as rendering.
-        let dealing = Instant::now();
+        let tracing = Instant::now();
         let count = parts.len();
         progress.start(count);
-        let (own, mut messages, tallies) = {
-            let mut desk = Desk {
+        let (own, mut messages, all_counts) = {
+            let mut dispatcher = Dispatcher {
                 world: self.world,
-                deal: Scheduler::new(job.work.policy, count, threads, order),
+                scheduler: Scheduler::new(job.work.policy, count, threads, order),
                 parts,
                 picture: &mut picture,
                 progress,
                 messages: Messages::default(),
-                tallies: vec![None; ranks],
+                all_counts: vec![None; ranks],
             };
-            let own = desk.run(&*renderer, interrupt)?;
-            (own, desk.messages, desk.tallies)
+            let own = dispatcher.run(&*renderer, interrupt)?;
+            (own, dispatcher.messages, dispatcher.all_counts)
         };
         self.state = State::Done;
-        let dealing = dealing.elapsed().as_secs_f64();
+        let tracing = tracing.elapsed().as_secs_f64();
         let (mut counters, mut saturations) = (Counters::default(), 0);
-        let tallies: Vec<_> = tallies.into_iter().map(|it| it.unwrap_or(own)).collect();
-        for tally in &tallies {
-            counters.add(&tally.counters());
-            saturations += tally.saturations;
+        let all_counts: Vec<_> = all_counts.into_iter().map(|it| it.unwrap_or(own)).collect();
+        for counts in &all_counts {
+            counters.add(&counts.counters());
+            saturations += counts.saturations;
         }
-        let busy: f64 = tallies.iter().map(|tally| tally.busy).sum();
+        let busy: f64 = all_counts.iter().map(|counts| counts.busy).sum();
         if busy > 0.0 && messages.count > 0 {
             let share = messages.seconds / messages.count as f64 / busy;
             messages.hand_out = share * cost::cost(&counters);
         }
         let times = (build, begin.elapsed());
-        let idle = |tally: &Tally| (dealing - tally.busy).max(0.0);
+        let idle = |counts: &RankCounts| (tracing - counts.busy).max(0.0);
         let work = Work {
             threads: ranks,
             schedule: job.work.policy,
             tile: shape,
             tiles: count,
             messages: Some(messages),
-            idle: tallies.iter().map(idle).collect(),
+            idle: all_counts.iter().map(idle).collect(),
         };
         let built = renderer.built();
         Ok(render::rendering(
@@ -148,20 +150,20 @@ impl<'a> Leader<'a> {
 }
 
 /// Hands out tiles and receives results.
-struct Desk<'a> {
+struct Dispatcher<'a> {
     world: &'a SimpleCommunicator,
-    deal: Scheduler,
+    scheduler: Scheduler,
     parts: Vec<Region>,
     picture: &'a mut Picture,
     progress: &'a dyn Progress,
     messages: Messages,
     /// The counts of the ranks that have finished.
-    tallies: Vec<Option<Tally>>,
+    all_counts: Vec<Option<RankCounts>>,
 }
 
-impl Desk<'_> {
+impl Dispatcher<'_> {
     /// Traces tiles, and answers the other ranks between them, until all have finished. Returns what this rank did.
-    fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Tally, Error> {
+    fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<RankCounts, Error> {
         let mut worker = renderer.worker();
         let mut busy = Duration::ZERO;
         loop {
@@ -169,17 +171,17 @@ impl Desk<'_> {
             while let Some((message, status)) = arrived(&self.world.any_process()) {
                 self.answer(message, status)?;
             }
-            let next = self.deal.next(0);
-            if let Some(dealt) = next {
+            let next = self.scheduler.next(0);
+            if let Some(assignment) = next {
                 let begin = Instant::now();
-                let mut part = self.part(dealt.tile);
+                let mut part = self.part(assignment.tile);
                 worker.trace(part.tile());
                 busy += begin.elapsed();
                 self.picture.put(&part);
                 self.progress.step();
-            } else if self.tallies.iter().skip(1).all(Option::is_some) {
+            } else if self.all_counts.iter().skip(1).all(Option::is_some) {
                 let (counters, saturations) = (worker.counters(), worker.saturations());
-                return Ok(Tally::new(counters, saturations, busy));
+                return Ok(RankCounts::new(counters, saturations, busy));
             } else {
                 pause();
             }
@@ -192,19 +194,19 @@ impl Desk<'_> {
         let (rank, tag) = (status.source_rank(), status.tag());
         let nonsense = || failed(format!("rank {rank} sent an invalid message"));
         let (bytes, _) = (message, status).matched_receive_vec::<u8>();
-        if tag == TALLY {
-            let tally = postcard::from_bytes(&bytes).map_err(|_| nonsense())?;
-            self.tallies[rank as usize] = Some(tally);
+        if tag == COUNTS {
+            let counts = postcard::from_bytes(&bytes).map_err(|_| nonsense())?;
+            self.all_counts[rank as usize] = Some(counts);
             return Ok(());
         }
         if tag == RESULT {
             self.keep(&bytes).ok_or_else(nonsense)?;
             self.progress.step();
         }
-        let next = self.deal.next(rank as usize);
-        let next = next.map_or(NONE, |dealt| dealt.tile as u32);
+        let next = self.scheduler.next(rank as usize);
+        let next = next.map_or(NONE, |assignment| assignment.tile as u32);
         let to = self.world.process_at_rank(rank);
-        to.send_with_tag(&next.to_le_bytes()[..], PACKET);
+        to.send_with_tag(&next.to_le_bytes()[..], TILE);
         self.messages.count += u64::from(tag == RESULT);
         self.messages.bytes += bytes.len() as u64;
         self.messages.seconds += begin.elapsed().as_secs_f64();

@@ -1,7 +1,8 @@
 //! The other ranks: each traces the tiles that the first rank assigns to it.
 
 use super::{
-    IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, buffer, failed, pause,
+    COUNTS, IN_HAND, NONE, REQUEST, RESULT, RankCounts, RankJob, TILE, arrived, buffer, failed,
+    pause,
 };
 use mpi::environment::Universe;
 use mpi::point_to_point::MatchedReceiveVec;
@@ -22,19 +23,19 @@ use std::time::{Duration, Instant};
 pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<(), Error> {
     let world = universe.world();
     let bytes = super::receive_broadcast(&world);
-    let plan: Option<Plan<'_>> = postcard::from_bytes(&bytes)
+    let rank_job: Option<RankJob<'_>> = postcard::from_bytes(&bytes)
         .map_err(|cause| failed(format!("the scene arrived incomplete: {cause}")))?;
-    let Some(plan) = plan else {
+    let Some(rank_job) = rank_job else {
         return Ok(());
     };
     drop(bytes);
-    let renderer = renderer::prepare(&plan.scene, &plan.settings)?;
+    let renderer = renderer::prepare(&rank_job.scene, &rank_job.settings)?;
     let region = renderer.built().region();
-    let parts: Vec<_> = plan.shape.cut(&region).collect();
+    let parts: Vec<_> = rank_job.shape.cut(&region).collect();
     // The first rank has checked that this buffer is possible.
     let size = parts
         .first()
-        .map_or(Some(0), |part| buffer(part, plan.intensities));
+        .map_or(Some(0), |part| buffer(part, rank_job.intensities));
     universe.set_buffer_size(size.ok_or_else(|| failed("a tile is too large".into()))?);
     let leader = world.process_at_rank(0);
     let mut worker = renderer.worker();
@@ -53,14 +54,14 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         let part = parts.get(index as usize);
         let part = part.ok_or_else(|| failed(format!("there is no tile {index}")))?;
         let begin = Instant::now();
-        let message = trace(&mut *worker, index, part, plan.intensities);
+        let message = trace(&mut *worker, index, part, rank_job.intensities);
         busy += begin.elapsed();
         // An unbuffered send of more than about 256 bytes blocks until the first rank looks for messages.
         leader.buffered_send_with_tag(&message[..], RESULT);
     }
-    let tally = Tally::new(worker.counters(), worker.saturations(), busy);
-    let bytes = postcard::to_stdvec(&tally).map_err(|cause| failed(cause.to_string()))?;
-    leader.send_with_tag(&bytes[..], TALLY);
+    let counts = RankCounts::new(worker.counters(), worker.saturations(), busy);
+    let bytes = postcard::to_stdvec(&counts).map_err(|cause| failed(cause.to_string()))?;
+    leader.send_with_tag(&bytes[..], COUNTS);
     Ok(())
 }
 
@@ -74,7 +75,7 @@ fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
         };
         let (bytes, status) = arrived.matched_receive_vec::<u8>();
         return match <[u8; 4]>::try_from(bytes) {
-            Ok(bytes) if status.tag() == PACKET => Ok(u32::from_le_bytes(bytes)),
+            Ok(bytes) if status.tag() == TILE => Ok(u32::from_le_bytes(bytes)),
             _ => Err(failed("a message is invalid".into())),
         };
     }

@@ -1,8 +1,8 @@
-//! Tables that benchmarks print.
+//! Tables for the output of benchmarks.
 
 use comfy_table::{CellAlignment, Table, presets};
 
-/// A Markdown table, numbers to the right of the first column.
+/// Returns a Markdown table whose columns are aligned right, except the first.
 pub(crate) fn table(heading: &[&str]) -> Table {
     let mut table = Table::new();
     table

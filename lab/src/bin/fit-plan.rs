@@ -1,17 +1,17 @@
-//! The model of `octray plan`: measured and fitted.
+//! Measures frames and fits the model of `octray plan`.
 //!
 //! `cargo run --release -p octray-lab --features fit --bin fit-plan` measures frames of shipped and generated scenes on
-//! emulated boards, in fixed point and in f32, with a tree and without, and fits to them the weights that the model
-//! predicts with. With `--fit` it fits to the record that is there, `lab/record/plan.csv`. It writes the record and
-//! `lab/src/plan/weights.csv` only with `--write`.
+//! emulated boards, in fixed point and in f32, with a tree and without, and fits the weights of the model. With `--fit`
+//! it fits to the existing record, `lab/record/plan.csv`. It writes the record and `lab/src/plan/weights.csv` only with
+//! `--write`.
 
 use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_lab::measure;
 use octray_lab::measure::board::{self, Board};
-use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob};
-use octray_lab::measure::report::Report;
-use octray_lab::measure::row::{COLUMNS, Row};
+use octray_lab::measure::job::{FirmwareOptions, Goal, MeasureJob};
+use octray_lab::measure::report::MeasureReport;
+use octray_lab::measure::row::{COLUMNS, FrameRow};
 use octray_lab::plan::comb::comb;
 use octray_lab::plan::fit;
 use octray_lab::plan::model::Model;
@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// A board of each target.
+/// One board per target.
 const BOARDS: [&str; 6] = ["m0", "m3", "m4", "m4f", "rv32imac", "rv32imafc"];
 
 /// Scenes that are measured with a tree.
@@ -46,26 +46,26 @@ const SCENES: [&str; 13] = [
     "raystones",
 ];
 
-/// Those of them that are measured without one as well.
+/// Those that are also measured without one.
 const FEW: [&str; 3] = ["figure-21", "figure-22", "raystones"];
 
-/// Objects of generated scenes with a tree.
+/// Number of objects of generated scenes with a tree.
 const MANY: usize = 60;
 
-/// Objects of generated scenes with and without a tree.
+/// Number of objects of generated scenes with and without a tree.
 const TWELVE: usize = 12;
 
-/// Teeth of combs.
+/// Numbers of teeth of combs.
 const TEETH: [u32; 2] = [12, 60];
 
 /// Measure, and fit the model of `octray plan`
 #[derive(Debug, Parser)]
 #[command(name = "fit-plan")]
 struct Args {
-    /// Fit to the record that is there, without measuring
+    /// Fit to the existing record, without measuring
     #[arg(long)]
     fit: bool,
-    /// Boards that are measured; the record keeps what it has of others
+    /// Boards to measure; the record keeps the lines of others
     #[arg(long, value_delimiter = ',', default_values = BOARDS)]
     boards: Vec<String>,
     /// Write the record and the weights into the sources
@@ -122,7 +122,7 @@ fn measure(
     boards: &[String],
     scenes: &Path,
     interrupt: &Interrupt,
-) -> Result<Report<Row>, Box<dyn Error>> {
+) -> Result<MeasureReport<FrameRow>, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let generated = |objects: usize| -> Result<Vec<PathBuf>, Box<dyn Error>> {
         let write = |kind: SceneKind| -> Result<PathBuf, Box<dyn Error>> {
@@ -155,7 +155,7 @@ fn measure(
         .into_iter()
         .filter_map(|named| named.first().copied())
         .collect();
-    let mut all: Option<Report<Row>> = None;
+    let mut all: Option<MeasureReport<FrameRow>> = None;
     for (scenes, tree) in [(with, FirmwareTree::COMPACT), (without, FirmwareTree::NONE)] {
         let report = measure::measure(&job(scenes, tree, &boards), interrupt)?;
         match &mut all {
@@ -183,7 +183,7 @@ fn job(scenes: Vec<PathBuf>, tree: FirmwareTree, boards: &[&'static Board]) -> M
             size: Some((64, 48)),
             ..RenderSettings::DEFAULT
         },
-        build: BuildOptions {
+        build: FirmwareOptions {
             tree,
             optimize: Goal::Speed,
         },
@@ -195,7 +195,7 @@ fn job(scenes: Vec<PathBuf>, tree: FirmwareTree, boards: &[&'static Board]) -> M
     }
 }
 
-/// How far predictions are from what was measured.
+/// Returns the errors of the predictions.
 fn errors(samples: &[Sample], model: &Model) -> Table {
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN).set_header([

@@ -1,10 +1,10 @@
-//! What each counted event costs: the weights of [`octray_render::cost`], fitted to instructions that Valgrind's
-//! Callgrind counts.
+//! Fits the weights of [`octray_render::cost`], the costs of counted events, to instructions that Valgrind's Callgrind
+//! counts.
 //!
-//! `cargo run --release -p octray-lab --features fit --bin fit-weights` runs itself under Callgrind. There it traces strips of rows of the
-//! scenes of figures 19 to 23 and of generated ones, in f32 with the default tree, and Callgrind dumps the
-//! instructions of each strip. The weights are those of least squared relative error that are not negative.
-//! Nothing here depends on how fast the machine is or on what else it does.
+//! `cargo run --release -p octray-lab --features fit --bin fit-weights` runs itself under Callgrind. It traces strips
+//! of rows of the scenes of figures 19 to 23 and of generated ones, in f32 with the default tree, and Callgrind dumps
+//! the instructions of each strip. The weights are the non-negative ones with the least squared relative error. The
+//! result does not depend on the speed or load of the machine.
 
 use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
@@ -32,7 +32,7 @@ const ROWS: NonZeroU32 = NonZeroU32::new(8).unwrap();
 #[derive(Debug, Parser)]
 #[command(name = "fit-weights")]
 struct Args {
-    /// Trace only, under Callgrind
+    /// Only trace, under Callgrind
     #[arg(long, hide = true)]
     inside: bool,
 }
@@ -52,7 +52,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Traces all strips, each in a call of its own, and prints what is counted in them.
+/// Traces all strips, each in a call of its own, and prints the counts of each.
 fn trace() -> Result<(), Box<dyn Error>> {
     let settings = RenderSettings {
         size: Some((SIZE, SIZE)),
@@ -72,13 +72,13 @@ fn trace() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What Callgrind looks for: it counts what happens in here, and dumps it on return.
+/// The function in which Callgrind counts; it dumps the count on return.
 #[inline(never)]
 fn trace_a_strip(worker: &mut dyn Worker, tile: Tile<'_>) {
     black_box(worker).trace(black_box(tile));
 }
 
-/// The scenes to learn from, by name.
+/// Returns the scenes to fit to, by name.
 fn scenes() -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let mut scenes = Vec::new();
@@ -95,7 +95,7 @@ fn scenes() -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
     Ok(scenes)
 }
 
-/// A strip of a picture: what was counted, and the instructions that it took.
+/// A strip of a picture: its counted events, and its instructions.
 struct Sample {
     scene: String,
     events: [f64; EVENTS],
@@ -103,7 +103,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// By how much of itself the cost by these weights is too large.
+    /// Returns the relative error of the cost with these weights; positive if the cost is too large.
     fn error(&self, weights: &[f64; EVENTS]) -> f64 {
         sum(&self.events, weights) / self.instructions - 1.0
     }
@@ -113,7 +113,7 @@ fn sum(events: &[f64; EVENTS], weights: &[f64; EVENTS]) -> f64 {
     events.iter().zip(weights).map(|(e, w)| e * w).sum()
 }
 
-/// Runs itself under Callgrind, fits weights to what comes out, and prints them beside the present ones.
+/// Runs itself under Callgrind, fits weights to the counts, and prints them beside the present ones.
 fn fit() -> Result<(), Box<dyn Error>> {
     let samples = measure()?;
     let weights = least_squares(&samples);
@@ -164,7 +164,7 @@ fn measure() -> Result<Vec<Sample>, Box<dyn Error>> {
     lines.lines().enumerate().map(sample).collect()
 }
 
-/// The weights, none of them negative, of the least sum of squared relative errors: by coordinate descent.
+/// Returns the non-negative weights with the least sum of squared relative errors, found by coordinate descent.
 fn least_squares(samples: &[Sample]) -> [f64; EVENTS] {
     let mut weights = [0.0; EVENTS];
     for _ in 0..100_000 {
@@ -181,7 +181,7 @@ fn least_squares(samples: &[Sample]) -> [f64; EVENTS] {
     weights
 }
 
-/// The errors of the strips of each scene, under the fitted weights and under the present ones.
+/// Returns the errors of the strips of each scene, with the fitted weights and with the present ones.
 fn errors(samples: &[Sample], fitted: &[f64; EVENTS]) -> Table {
     let mut table = table(&[
         "scene",
@@ -217,7 +217,7 @@ fn errors(samples: &[Sample], fitted: &[f64; EVENTS]) -> Table {
     table
 }
 
-/// A Markdown table, numbers to the right of the first column.
+/// Returns a Markdown table whose columns are aligned right, except the first.
 fn table(heading: &[&str]) -> Table {
     let mut table = Table::new();
     table

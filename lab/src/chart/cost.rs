@@ -6,9 +6,9 @@ use super::callgrind::Callgrind;
 use crate::measure;
 use crate::measure::board::{self, BOARDS, Board};
 use crate::measure::emulate::Emulator;
-use crate::measure::frames::{Bench, Named, SEARCH};
-use crate::measure::job::{BuildOptions, Goal, MeasureJob};
-use crate::measure::workspace::Workspace;
+use crate::measure::frames::{Bench, NamedScene, SEARCH};
+use crate::measure::job::{FirmwareOptions, Goal, MeasureJob};
+use crate::measure::source_tree::SourceTree;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
 use octray_render::cost;
 use octray_render::counts::thousands;
@@ -110,7 +110,7 @@ pub struct Meter<'a> {
     job: &'a ChartJob,
     callgrind: Option<Callgrind>,
     /// The firmware's sources, and the emulator's plugin.
-    workshop: Option<(Workspace, PathBuf)>,
+    workshop: Option<(SourceTree, PathBuf)>,
     /// Asks to stop.
     pub interrupt: &'a Interrupt,
 }
@@ -140,9 +140,9 @@ impl<'a> Meter<'a> {
         let workshop = match &*boards {
             [] => None,
             boards => {
-                let root = Workspace::root()?;
+                let root = SourceTree::root()?;
                 board::require(boards, &root)?;
-                let workspace = Workspace::open(root)?;
+                let workspace = SourceTree::open(root)?;
                 let plugin = measure::plugin(&workspace, interrupt)?;
                 Some((workspace, plugin))
             }
@@ -162,7 +162,7 @@ impl<'a> Meter<'a> {
     pub fn costs(
         &self,
         kind: CostKind,
-        scene: &Named,
+        scene: &NamedScene,
         settings: &[RenderSettings],
         progress: &dyn Progress,
     ) -> Result<Costs, Error> {
@@ -211,9 +211,9 @@ impl<'a> Meter<'a> {
     fn on_board(
         &self,
         board: &'static Board,
-        scene: &Named,
+        scene: &NamedScene,
         setting: &RenderSettings,
-        workspace: &Workspace,
+        workspace: &SourceTree,
         plugin: &std::path::Path,
     ) -> Result<Result<f64, String>, Error> {
         let Some(tree) = tree_on_boards(setting.tree.kind) else {
@@ -223,7 +223,7 @@ impl<'a> Meter<'a> {
             )));
         };
         let bench = Bench {
-            workspace,
+            sources: workspace,
             emulator: &Emulator {
                 plugin,
                 patience: PATIENCE,
@@ -238,7 +238,7 @@ impl<'a> Meter<'a> {
             boards: vec![board],
             ariths: vec![setting.arith],
             settings: *setting,
-            build: BuildOptions {
+            build: FirmwareOptions {
                 tree,
                 optimize: Goal::Speed,
             },
@@ -251,7 +251,7 @@ impl<'a> Meter<'a> {
         let rows = bench.frames(std::slice::from_ref(scene), &job)?;
         let row = rows.first();
         let why = || row.map_or("not measured".into(), |row| row.outcome.clone());
-        let instructions = row.and_then(measure::row::Row::instructions);
+        let instructions = row.and_then(measure::row::FrameRow::instructions);
         Ok(instructions.map(|count| count as f64).ok_or_else(why))
     }
 }

@@ -1,27 +1,27 @@
-//! The boards that firmware is measured on, and whether they can be emulated here.
+//! The boards on which firmware is measured, and checks that they can be emulated on this machine.
 
-use super::cycles::{self, Table};
+use super::cycles::{self, CycleTable};
 use octray_render::error::Error;
 use serde::{Serialize, Serializer};
 use std::fmt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// A board of QEMU.
+/// A board that QEMU emulates.
 #[derive(Debug)]
 pub struct Board {
     /// Its name on the command line.
     pub name: &'static str,
-    /// Rust's target.
+    /// Its target triple in Rust.
     pub target: &'static str,
-    /// QEMU's name of it.
+    /// Its name in QEMU.
     pub machine: &'static str,
     /// Its core.
     pub core: &'static str,
-    /// Whether programs use a floating-point unit.
+    /// Whether its programs use a floating-point unit.
     pub fpu: bool,
-    /// The core's table of cycles, if one has been published.
-    pub cycles: Option<&'static Table>,
+    /// The core's table of cycles, if one was published.
+    pub cycles: Option<&'static CycleTable>,
 }
 
 /// All boards.
@@ -92,7 +92,7 @@ pub const BOARDS: [Board; 8] = [
     },
 ];
 
-/// Its name.
+/// Serialises its name.
 impl Serialize for Board {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name)
@@ -100,12 +100,12 @@ impl Serialize for Board {
 }
 
 impl Board {
-    /// Whether its instructions are Arm's; RISC-V's if not.
+    /// Returns whether it has an Arm core; otherwise it has a RISC-V core.
     pub fn is_arm(&self) -> bool {
         self.target.starts_with("thumb")
     }
 
-    /// The emulator's program.
+    /// Returns the name of the emulator.
     pub fn emulator(&self) -> &'static str {
         match self.is_arm() {
             true => "qemu-system-arm",
@@ -120,8 +120,8 @@ impl Board {
         }
     }
 
-    /// How to install what it takes to build for it and to emulate it, if that is missing here.
-    fn missing(&self, workspace: &Path) -> Vec<String> {
+    /// Returns instructions to install what building for it and emulating it needs, if it is missing on this machine.
+    fn missing(&self, sources: &Path) -> Vec<String> {
         let mut missing = Vec::new();
         if !runs(self.emulator()) {
             let (emulator, package) = (self.emulator(), self.package());
@@ -130,12 +130,12 @@ impl Board {
             ));
         }
         let library = Command::new("rustc")
-            .current_dir(workspace)
+            .current_dir(sources)
             .args(["--print", "target-libdir", "--target", self.target])
             .output();
         match library {
             Err(_) => missing.push("rustc is missing: install Rust from https://rustup.rs".into()),
-            Ok(told) if Path::new(String::from_utf8_lossy(&told.stdout).trim()).is_dir() => {}
+            Ok(output) if Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir() => {}
             Ok(_) => {
                 let target = self.target;
                 missing.push(format!(
@@ -157,14 +157,14 @@ fn runs(program: &str) -> bool {
     (Command::new(program).arg("--version"))
         .stdin(Stdio::null())
         .output()
-        .is_ok_and(|told| told.status.success())
+        .is_ok_and(|output| output.status.success())
 }
 
-/// The boards that a word on the command line names: one by its name, all of a target by the
-/// target's.
+/// Returns the boards that a word on the command line names: one board by its name, or all boards of a target by its
+/// triple.
 ///
 /// # Errors
-/// If there is none; says which there are.
+/// If there is none; the message lists the names.
 pub fn named(name: &str) -> Result<Vec<&'static Board>, String> {
     let found: Vec<_> = (BOARDS.iter())
         .filter(|board| board.name == name || board.target == name)
@@ -180,13 +180,13 @@ pub fn named(name: &str) -> Result<Vec<&'static Board>, String> {
     Ok(found)
 }
 
-/// Makes sure that all boards can be built for and emulated.
+/// Checks that programs can be built for all boards, and that all can be emulated.
 ///
 /// # Errors
 /// [`Error::Failed`] with everything that is missing, and how to install it.
-pub fn require(boards: &[&Board], workspace: &Path) -> Result<(), Error> {
+pub fn require(boards: &[&Board], sources: &Path) -> Result<(), Error> {
     let mut missing: Vec<String> = Vec::new();
-    for line in boards.iter().flat_map(|board| board.missing(workspace)) {
+    for line in boards.iter().flat_map(|board| board.missing(sources)) {
         if !missing.contains(&line) {
             missing.push(line);
         }

@@ -2,7 +2,7 @@
 //! without and one with the floating-point unit, and over them their ratio.
 
 use super::ratio::{CORES, Pair, THESIS, pairs, per_pixel};
-use super::row::Row;
+use super::row::FrameRow;
 use crate::canvas::{Area, Drawn, Figure, write};
 use octray_prepare::Arith;
 use plotters::prelude::*;
@@ -19,14 +19,14 @@ const HEAD: i32 = 52;
 /// Costs without and with a floating-point unit.
 #[derive(Debug)]
 pub struct Chart<'a> {
-    rows: &'a [Row],
+    rows: &'a [FrameRow],
     ariths: Vec<Arith>,
     scenes: Vec<&'a str>,
 }
 
 impl<'a> Chart<'a> {
     /// The chart of these rows; `None` if no core is among them without and with its unit.
-    pub fn of(rows: &'a [Row]) -> Option<Self> {
+    pub fn of(rows: &'a [FrameRow]) -> Option<Self> {
         let all: Vec<_> = CORES
             .into_iter()
             .flat_map(|core| pairs(rows, core))

@@ -1,4 +1,4 @@
-//! What the emulator's plugin has counted, read from its report.
+//! Reads the report of the emulator's plugin.
 
 use octray_instruction::Kind;
 use std::collections::BTreeMap;
@@ -8,33 +8,33 @@ use std::collections::BTreeMap;
 pub struct Calls {
     /// The function's path.
     pub function: String,
-    /// How many calls.
+    /// The number of calls.
     pub count: u64,
-    /// Instructions from entries to returns.
+    /// Instructions from entry to return, of all calls.
     pub instructions: u64,
 }
 
 /// Instructions of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// All of them.
+    /// All instructions.
     pub instructions: u64,
     /// By class.
     pub classes: BTreeMap<String, u64>,
     /// By kind.
     pub kinds: BTreeMap<Kind, u64>,
-    /// Conditional branches that were taken.
+    /// Taken conditional branches.
     pub taken: u64,
-    /// Registers that loads and stores of several moved.
+    /// Registers moved by loads and stores of several registers.
     pub moved: u64,
     /// Calls of watched functions.
     pub calls: Vec<Calls>,
-    /// Each function's own instructions, the costliest first.
+    /// Each function's own instructions, the most expensive first.
     pub functions: Vec<(String, u64)>,
 }
 
 impl Count {
-    /// Reads the plugin's report; `None` if it is not one.
+    /// Parses the plugin's report; `None` if it is not one.
     pub fn parse(report: &str) -> Option<Self> {
         let mut count = Self::default();
         for line in report.lines() {
@@ -70,12 +70,12 @@ impl Count {
         (count.instructions > 0 || count.calls.iter().any(|c| c.count > 0)).then_some(count)
     }
 
-    /// Instructions of a class, by its name.
+    /// Returns the instructions of a class, by its name.
     pub fn class(&self, name: &str) -> u64 {
         self.classes.get(name).copied().unwrap_or(0)
     }
 
-    /// Instructions in functions of which a name is true.
+    /// Returns the instructions of functions for whose name `name` is true.
     pub fn in_functions(&self, name: impl Fn(&str) -> bool) -> u64 {
         (self.functions.iter())
             .filter(|(function, _)| name(function))
@@ -83,7 +83,7 @@ impl Count {
             .sum()
     }
 
-    /// Calls, and their instructions, of all watched functions of one name.
+    /// Returns the calls and instructions of all watched functions of one name.
     pub fn calls_of(&self, name: &str) -> (u64, u64) {
         let of_name = |calls: &&Calls| calls.function.rsplit("::").next() == Some(name);
         (self.calls.iter().filter(of_name))
@@ -91,11 +91,10 @@ impl Count {
     }
 }
 
-/// Whether a function belongs to the library that computes with floats where there is no unit for
-/// them.
+/// Returns whether a function belongs to the library that emulates floating point.
 pub fn is_float_library(function: &str) -> bool {
     const PATHS: [&str; 3] = ["compiler_builtins::float::", "libm::", "soft_float::"];
-    // The run-time ABI of Arm: f is float, c compares; i, u and l are integers.
+    // Arm's run-time ABI: f is float, c compares; i, u and l are integers.
     const ARM: [&str; 7] = ["f", "cf", "d", "i2", "ui2", "l2", "ul2"];
     if PATHS.iter().any(|path| function.contains(path)) {
         return true;
@@ -131,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn half_a_report_and_unknown_kinds_are_refused() {
+    fn incomplete_reports_and_unknown_kinds_are_refused() {
         let wrong = [
             "",
             "instructions",
@@ -146,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn the_float_library_is_known_by_name() {
+    fn the_float_library_is_recognised_by_name() {
         let cases = [
             ("compiler_builtins::float::mul::__mulsf3", true),
             ("__aeabi_fadd", true),

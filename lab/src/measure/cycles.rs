@@ -1,31 +1,30 @@
-//! An estimate of cycles: instructions by kind, times what a core's manual says each kind takes at
-//! zero wait states. What the manual gives as a range, or what depends on neighbouring
-//! instructions, stays a range.
+//! Estimates cycles: instructions by kind, times the cycles of each kind at zero wait states according to the core's
+//! manual. If the manual states a range, or the cycles depend on neighbouring instructions, the estimate is a range.
 
 use super::count::Count;
 use octray_instruction::Kind;
 use serde::Serialize;
 
-/// At least and at most so many cycles.
+/// The least and the largest number of cycles.
 type Range = (u64, u64);
 
-/// What instructions take on a core.
+/// The cycles of instructions on a core.
 #[derive(Debug)]
-pub struct Table {
-    /// Where the numbers have been published.
+pub struct CycleTable {
+    /// The publication of the numbers.
     pub source: &'static str,
-    /// The core whose cycles count where `costs` has none.
-    like: Option<&'static Table>,
-    /// Cycles of each kind of instructions; of [`Kind::BranchIf`], when it is not taken.
+    /// The core whose cycles are used for kinds that `costs` lacks.
+    like: Option<&'static CycleTable>,
+    /// Cycles of each kind of instructions; of [`Kind::BranchIf`] if it is not taken.
     costs: &'static [(Kind, Range)],
-    /// What [`Kind::BranchIf`] takes more when it is taken.
+    /// Additional cycles of [`Kind::BranchIf`] if it is taken.
     taken: Range,
-    /// What each register takes more that [`Kind::Multiple`] or [`Kind::MultipleReturn`] moves.
+    /// Additional cycles per register that [`Kind::Multiple`] or [`Kind::MultipleReturn`] moves.
     moved: Range,
 }
 
-/// A single-cycle multiplier, as in most parts.
-pub const CORTEX_M0: Table = Table {
+/// With a single-cycle multiplier, as in most parts.
+pub const CORTEX_M0: CycleTable = CycleTable {
     source: "Arm Cortex-M0 Technical Reference Manual (DDI 0432), table 3-1",
     like: None,
     costs: &[
@@ -45,8 +44,8 @@ pub const CORTEX_M0: Table = Table {
     moved: (1, 1),
 };
 
-/// A refill of the pipeline takes 1 to 3; neighbouring loads and stores of a word overlap.
-pub const CORTEX_M3: Table = Table {
+/// A pipeline refill takes 1 to 3 cycles; neighbouring loads and stores of a word overlap.
+pub const CORTEX_M3: CycleTable = CycleTable {
     source: "Arm Cortex-M3 Technical Reference Manual (100165), table 3-1",
     like: None,
     costs: &[
@@ -70,8 +69,8 @@ pub const CORTEX_M3: Table = Table {
     moved: (1, 1),
 };
 
-/// As the Cortex-M3, with a faster multiplier and a unit for floats.
-pub const CORTEX_M4: Table = Table {
+/// Like the Cortex-M3, with a faster multiplier and a floating-point unit.
+pub const CORTEX_M4: CycleTable = CycleTable {
     source: "Arm Cortex-M4 Technical Reference Manual (100166), tables 3-1 and 7-1",
     like: Some(&CORTEX_M3),
     costs: &[
@@ -87,9 +86,9 @@ pub const CORTEX_M4: Table = Table {
     moved: (1, 1),
 };
 
-/// One instruction per cycle at best; at most, every result is waited for and every branch
+/// At best one instruction per cycle; at worst every instruction waits for the previous result and every branch is
 /// mispredicted.
-pub const SIFIVE_E31: Table = Table {
+pub const SIFIVE_E31: CycleTable = CycleTable {
     source: "SiFive FE310-G000 Manual, chapter 3: E31 core",
     like: None,
     costs: &[
@@ -112,14 +111,14 @@ pub const SIFIVE_E31: Table = Table {
 /// An estimate, not a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Estimate {
-    /// At least so many cycles.
+    /// The lower bound.
     pub least: u64,
-    /// At most so many.
+    /// The upper bound.
     pub most: u64,
 }
 
-impl Table {
-    /// The cycles of what was counted; `None` if the table has no number for one of its kinds.
+impl CycleTable {
+    /// Estimates the cycles of a count; `None` if the table lacks one of its kinds.
     pub fn estimate(&self, count: &Count) -> Option<Estimate> {
         let mut sum = Estimate { least: 0, most: 0 };
         let mut add = |(least, most): Range, n: u64| {
@@ -144,7 +143,7 @@ impl Table {
 mod tests {
     use super::*;
 
-    fn count(kinds: &[(Kind, u64)], taken: u64, moved: u64) -> Count {
+    fn counted(kinds: &[(Kind, u64)], taken: u64, moved: u64) -> Count {
         Count {
             kinds: kinds.iter().copied().collect(),
             taken,
@@ -154,14 +153,14 @@ mod tests {
     }
 
     #[test]
-    fn the_tables_are_the_manuals() {
+    fn the_tables_match_the_manuals() {
         // Three loads, a return that pops r4 and pc, ten branches of which four are taken.
         let kinds = [
             (Kind::Load, 3),
             (Kind::MultipleReturn, 1),
             (Kind::BranchIf, 10),
         ];
-        let told = count(&kinds, 4, 2);
+        let count = counted(&kinds, 4, 2);
         let cases = [
             (&CORTEX_M0, (3 * 2 + 4 + 2 + 10 + 4 * 2, 30)),
             (&CORTEX_M3, (3 + 2 + 2 + 10 + 4, 3 * 2 + 4 + 2 + 10 + 4 * 3)),
@@ -169,35 +168,35 @@ mod tests {
         ];
         for (table, (least, most)) in cases {
             let expected = Some(Estimate { least, most });
-            assert_eq!(table.estimate(&told), expected, "{}", table.source);
+            assert_eq!(table.estimate(&count), expected, "{}", table.source);
         }
-        let told = count(&[(Kind::LoadPart, 1), (Kind::Divide, 2)], 0, 0);
+        let count = counted(&[(Kind::LoadPart, 1), (Kind::Divide, 2)], 0, 0);
         let expected = Some(Estimate { least: 3, most: 69 });
-        assert_eq!(SIFIVE_E31.estimate(&told), expected);
+        assert_eq!(SIFIVE_E31.estimate(&count), expected);
     }
 
     #[test]
-    fn long_products_are_what_tells_m3_and_m4_apart() {
-        let told = count(
+    fn m3_and_m4_differ_in_long_products() {
+        let count = counted(
             &[(Kind::MultiplyLong, 10), (Kind::MultiplyLongAdd, 10)],
             0,
             0,
         );
-        let cycles = |table: &Table| table.estimate(&told).map(|e| (e.least, e.most));
+        let cycles = |table: &CycleTable| table.estimate(&count).map(|e| (e.least, e.most));
         assert_eq!(cycles(&CORTEX_M3), Some((70, 120)));
         assert_eq!(cycles(&CORTEX_M4), Some((20, 20)));
     }
 
     #[test]
-    fn what_a_core_does_not_have_is_not_estimated() {
-        let told = count(&[(Kind::Float, 1)], 0, 0);
-        assert_eq!(SIFIVE_E31.estimate(&told), None);
-        let told = count(&[(Kind::Float, 0), (Kind::Other, 1)], 0, 0);
-        assert!(SIFIVE_E31.estimate(&told).is_some());
+    fn instructions_that_a_core_lacks_are_not_estimated() {
+        let count = counted(&[(Kind::Float, 1)], 0, 0);
+        assert_eq!(SIFIVE_E31.estimate(&count), None);
+        let count = counted(&[(Kind::Float, 0), (Kind::Other, 1)], 0, 0);
+        assert!(SIFIVE_E31.estimate(&count).is_some());
     }
 
     #[test]
-    fn no_range_is_upside_down() {
+    fn no_range_is_inverted() {
         for table in [&CORTEX_M0, &CORTEX_M3, &CORTEX_M4, &SIFIVE_E31] {
             for (kind, (least, most)) in table.costs {
                 assert!(least <= most && *least > 0, "{}: {kind:?}", table.source);

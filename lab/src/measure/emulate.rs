@@ -1,4 +1,4 @@
-//! Running a program on an emulated board, its instructions counted.
+//! Runs a program on an emulated board and counts its instructions.
 
 use super::board::Board;
 use super::child::{self, Ended};
@@ -11,11 +11,11 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-/// What a program did on a board.
+/// The result of a run on a board.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// What it told: names and values.
-    pub told: BTreeMap<String, String>,
+    /// The names and values that it printed.
+    pub values: BTreeMap<String, String>,
     /// Its instructions between the marks.
     pub count: Count,
 }
@@ -23,16 +23,16 @@ pub struct Run {
 /// Runs emulated boards.
 #[derive(Debug)]
 pub struct Emulator<'a> {
-    /// The plugin that counts.
+    /// The plugin that counts instructions.
     pub plugin: &'a Path,
-    /// How long a run may take.
+    /// The timeout of a run.
     pub patience: Duration,
     /// Functions to watch, separated by colons; see the plugin.
     pub watch: &'a str,
 }
 
 impl Emulator<'_> {
-    /// Runs a program; what it did, or in words why that is not known.
+    /// Runs a program and returns its result, or a text that states why there is none.
     ///
     /// # Errors
     /// [`Error::Interrupted`]; [`Error::Failed`] if the emulator cannot be run.
@@ -58,41 +58,41 @@ impl Emulator<'_> {
             .arg(format!("{plugin},out={out},watch={}", self.watch))
             .arg("-kernel")
             .arg(program);
-        let (ended, told) = child::run(command, self.patience, interrupt)?;
-        let text = [told.output, told.errors].concat();
+        let (ended, output) = child::run(command, self.patience, interrupt)?;
+        let text = [output.output, output.errors].concat();
         if let Some(why) = failure(ended, &text, self.patience) {
             return Ok(Err(why));
         }
         let report = fs::read_to_string(&report).unwrap_or_default();
         Ok(Count::parse(&report)
             .map(|count| Run {
-                told: values(&text),
+                values: values(&text),
                 count,
             })
             .ok_or_else(|| format!("the emulator counted nothing: {}", last_line(&text))))
     }
 }
 
-/// A path as a value among QEMU's options, where a comma is written twice.
+/// Formats a path as a value in QEMU's options, where commas are doubled.
 fn option(path: &Path) -> String {
     path.to_string_lossy().replace(',', ",,")
 }
 
-/// Why a run is no measurement; the exit codes are the firmware's.
-fn failure(ended: Ended, told: &str, patience: Duration) -> Option<String> {
+/// Returns why a run gives no measurement. The exit codes are the firmware's.
+fn failure(ended: Ended, text: &str, patience: Duration) -> Option<String> {
     Some(match ended {
         Ended::Exited { code: 0 } => return None,
         Ended::Exited { code: 101 } => "panicked".into(),
         Ended::Exited { code: 102 } => "trapped".into(),
         Ended::Exited { code: 103 } => "stack overflow".into(),
-        Ended::Exited { code: 104 } => format!("too little room: {}", last_line(told)),
-        Ended::Exited { code } => format!("exit code {code}: {}", last_line(told)),
-        Ended::Killed => format!("crashed: {}", fatal_line(told)),
+        Ended::Exited { code: 104 } => format!("not enough capacity: {}", last_line(text)),
+        Ended::Exited { code } => format!("exit code {code}: {}", last_line(text)),
+        Ended::Killed => format!("crashed: {}", fatal_line(text)),
         Ended::Late => format!("no end within {} s", patience.as_secs()),
     })
 }
 
-/// What QEMU said before it gave up, such as that a fault met no handler.
+/// Returns QEMU's message before it gave up, for example that a fault met no handler.
 fn fatal_line(text: &str) -> &str {
     text.lines()
         .find_map(|line| line.strip_prefix("qemu: fatal: "))
@@ -100,13 +100,10 @@ fn fatal_line(text: &str) -> &str {
 }
 
 fn last_line(text: &str) -> &str {
-    text.trim()
-        .lines()
-        .next_back()
-        .unwrap_or("nothing was told")
+    text.trim().lines().next_back().unwrap_or("no output")
 }
 
-/// Lines of a name and a value.
+/// Parses lines of a name and a value.
 fn values(text: &str) -> BTreeMap<String, String> {
     (text.lines())
         .filter_map(|line| line.split_once(' '))
@@ -114,10 +111,10 @@ fn values(text: &str) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// The emulator's own version, as it tells it.
+/// Returns the version that the emulator reports.
 pub fn version(board: &Board) -> String {
-    let told = Command::new(board.emulator()).arg("--version").output();
-    let text = told.map(|told| String::from_utf8_lossy(&told.stdout).into_owned());
+    let output = Command::new(board.emulator()).arg("--version").output();
+    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
     let text = text.unwrap_or_default();
     let line = text.lines().next().unwrap_or_default();
     line.strip_prefix("QEMU emulator version ")
@@ -129,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_that_failed_is_told_in_words() {
+    fn a_failed_run_is_described() {
         let why = |ended| failure(ended, "a b\nlast\n", Duration::from_secs(9)).unwrap();
         assert_eq!(why(Ended::Exited { code: 101 }), "panicked");
         assert_eq!(why(Ended::Exited { code: 102 }), "trapped");
@@ -139,12 +136,12 @@ mod tests {
             "hash 1\ndropped 3\n",
             Duration::ZERO,
         );
-        assert_eq!(dropped.as_deref(), Some("too little room: dropped 3"));
+        assert_eq!(dropped.as_deref(), Some("not enough capacity: dropped 3"));
         assert_eq!(why(Ended::Exited { code: 1 }), "exit code 1: last");
         assert_eq!(why(Ended::Killed), "crashed: last");
         assert_eq!(why(Ended::Late), "no end within 9 s");
-        let told = "qemu: fatal: Lockup\nR00=0\n";
-        let why = failure(Ended::Killed, told, Duration::ZERO);
+        let text = "qemu: fatal: Lockup\nR00=0\n";
+        let why = failure(Ended::Killed, text, Duration::ZERO);
         assert_eq!(why.as_deref(), Some("crashed: Lockup"));
         let well = Ended::Exited { code: 0 };
         assert_eq!(failure(well, "", Duration::ZERO), None);
@@ -157,9 +154,9 @@ mod tests {
 
     #[test]
     fn values_are_read_by_name() {
-        let told = values("scene a b\nhash 12\nwarning\n");
-        assert_eq!(told["hash"], "12");
-        assert_eq!(told["scene"], "a b");
-        assert_eq!(told.len(), 2);
+        let values = values("scene a b\nhash 12\nwarning\n");
+        assert_eq!(values["hash"], "12");
+        assert_eq!(values["scene"], "a b");
+        assert_eq!(values.len(), 2);
     }
 }

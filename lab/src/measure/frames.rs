@@ -1,12 +1,12 @@
-//! Frames on boards: built, run, counted and compared with the host's.
+//! Measures frames on boards: builds, runs, counts, and compares them with the host's.
 
 use super::board::Board;
 use super::emulate::Emulator;
-use super::job::{BuildOptions, MeasureJob};
+use super::job::{FirmwareOptions, MeasureJob};
 use super::memory::Memory;
 use super::reference::{self, Reference};
-use super::row::{Cost, Row};
-use super::workspace::Workspace;
+use super::row::{Cost, FrameRow};
+use super::source_tree::SourceTree;
 use crate::tables::subject::FIGURES;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, RenderSettings};
@@ -17,25 +17,25 @@ use octray_scenes::model::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The functions whose calls are the search for what a ray meets.
+/// The functions whose calls are the search for the object that a ray hits.
 pub const SEARCH: &str = "nearest:any_hit:blocks";
 
-/// A scene that has been read.
+/// A parsed scene with its name.
 #[derive(Debug)]
-pub struct Named {
+pub struct NamedScene {
     /// Its name: the file's, without folder and extension.
     pub name: String,
-    /// The file, from the root.
+    /// The file, relative to the root.
     pub path: PathBuf,
-    /// What is in it.
+    /// The scene.
     pub scene: Scene,
 }
 
-impl Named {
+impl NamedScene {
     /// Reads a scene file.
     ///
     /// # Errors
-    /// If it cannot be read, or is wrong.
+    /// If it cannot be read, or has mistakes.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let scene = octray_scenes::read(path)?;
         let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
@@ -48,45 +48,45 @@ impl Named {
     }
 }
 
-/// The scenes that were named, or the five figures of octray's sources: each with its path as it is told.
+/// Reads the named scenes, or the five figures of octray's sources. Each is returned with its path for output.
 ///
 /// # Errors
-/// If one cannot be read, or is wrong.
-pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, Named)>, Error> {
-    let read = |told: PathBuf, path: &Path| Ok((told, Named::read(path)?));
+/// If one cannot be read, or has mistakes.
+pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, NamedScene)>, Error> {
+    let read = |name: PathBuf, path: &Path| Ok((name, NamedScene::read(path)?));
     if !named.is_empty() {
         let named = named.iter();
         return named.map(|path| read(path.clone(), path)).collect();
     }
-    let root = Workspace::root()?;
+    let root = SourceTree::root()?;
     (FIGURES.iter())
         .map(|figure| {
-            let told = PathBuf::from(format!("scenes/{}.scene", figure.name));
-            let path = root.join(&told);
-            read(told, &path)
+            let name = PathBuf::from(format!("scenes/{}.scene", figure.name));
+            let path = root.join(&name);
+            read(name, &path)
         })
         .collect()
 }
 
-/// What measures.
+/// The environment of measurements.
 pub struct Bench<'a> {
     /// The firmware's sources.
-    pub workspace: &'a Workspace,
+    pub sources: &'a SourceTree,
     /// The boards' emulator.
     pub emulator: &'a Emulator<'a>,
-    /// Shows how far it is.
+    /// Displays the progress.
     pub progress: &'a dyn Progress,
-    /// Asks to stop.
+    /// Requests a stop.
     pub interrupt: &'a Interrupt,
 }
 
 impl Bench<'_> {
-    /// Every scene in every arithmetic on every board, in this order.
+    /// Measures every scene in every arithmetic on every board, in this order.
     ///
     /// # Errors
-    /// [`Error::Interrupted`], or when cargo or the emulator cannot be run. A combination that
-    /// fails is a row that says so.
-    pub fn frames(&self, scenes: &[Named], job: &MeasureJob) -> Result<Vec<Row>, Error> {
+    /// [`Error::Interrupted`], or if cargo or the emulator cannot be run. The row of a combination that fails states
+    /// why.
+    pub fn frames(&self, scenes: &[NamedScene], job: &MeasureJob) -> Result<Vec<FrameRow>, Error> {
         let mut rows = Vec::new();
         for scene in scenes {
             let exact = reference::render(&scene.scene, Arith::F64, &job.settings, self.interrupt)?;
@@ -115,10 +115,10 @@ impl Bench<'_> {
         Ok(rows)
     }
 
-    /// One combination: its cost and its functions, or why there is none.
+    /// Measures one combination: its cost and its functions, or why there is none.
     fn frame(
         &self,
-        scene: &Named,
+        scene: &NamedScene,
         arith: Arith,
         board: &Board,
         job: &MeasureJob,
@@ -136,14 +136,14 @@ impl Bench<'_> {
         let file = fs::read(&program).map_err(|cause| Error::read(&program, cause))?;
         let memory = Memory::of(&file)
             .map_err(|cause| Error::Failed(format!("{}: {cause}", program.display())))?;
-        let told = |name| run.told.get(name).cloned().unwrap_or_default();
-        let (hash, expected) = (told("hash"), reference.traced.picture.hash());
+        let value = |name| run.values.get(name).cloned().unwrap_or_default();
+        let (hash, expected) = (value("hash"), reference.traced.picture.hash());
         if hash != format!("{expected:016x}") {
             return Ok(Err(format!(
                 "wrong picture: its hash is {hash}, the host's {expected:016x}"
             )));
         }
-        let Ok(stack) = told("stack").parse() else {
+        let Ok(stack) = value("stack").parse() else {
             return Ok(Err("its stack is not known".into()));
         };
         let cost = Cost::new(board, &run.count, reference, memory, stack, hash);
@@ -157,7 +157,7 @@ impl Bench<'_> {
         arith: Arith,
         board: &Board,
         settings: &RenderSettings,
-        options: BuildOptions,
+        options: FirmwareOptions,
     ) -> Result<Result<PathBuf, String>, Error> {
         let (width, height) = settings.size.unwrap_or_default();
         let size = format!("{width}x{height}");
@@ -174,7 +174,7 @@ impl Bench<'_> {
             ("OCTRAY_TREE", options.tree.name()),
         ];
         let firmware = ("octray-firmware", None);
-        (self.workspace).firmware(
+        (self.sources).firmware(
             firmware,
             board,
             options.optimize,
@@ -187,8 +187,8 @@ impl Bench<'_> {
 /// Functions and their own instructions.
 type Functions = Vec<(String, u64)>;
 
-fn row(scene: &Named, arith: Arith, board: &'static Board, job: &MeasureJob) -> Row {
-    Row {
+fn row(scene: &NamedScene, arith: Arith, board: &'static Board, job: &MeasureJob) -> FrameRow {
+    FrameRow {
         scene: scene.name.clone(),
         objects: scene.scene.objects.len(),
         width: job.settings.size.map_or(0, |size| size.0),

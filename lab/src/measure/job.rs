@@ -1,4 +1,4 @@
-//! What to measure: a command line that has been checked.
+//! The job of `octray measure`: a checked command line.
 
 use super::board::Board;
 use octray_prepare::{Arith, FirmwareTree, RenderSettings};
@@ -7,43 +7,43 @@ use std::path::PathBuf;
 use std::time::Duration;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
-/// Everything `octray measure` was asked for.
+/// Everything that `octray measure` was asked to do.
 #[derive(Clone, Debug)]
 pub struct MeasureJob {
-    /// Single operations instead of scenes.
+    /// Whether to measure single operations instead of scenes.
     pub kernels: bool,
-    /// The scene files; the five figures if there is none.
+    /// The scene files; the five figures if empty.
     pub scenes: Vec<PathBuf>,
     /// The boards.
     pub boards: Vec<&'static Board>,
     /// The arithmetics.
     pub ariths: Vec<Arith>,
-    /// The picture; its arithmetic and tree do not count.
+    /// The picture; its arithmetic and tree are ignored.
     pub settings: RenderSettings,
     /// How firmware is built.
-    pub build: BuildOptions,
-    /// How long a run may take.
+    pub build: FirmwareOptions,
+    /// The timeout of a run.
     pub patience: Duration,
-    /// How many of the costliest functions to tell.
+    /// How many of the most expensive functions to print.
     pub functions: usize,
     /// Where to write the results as JSON.
     pub json: Option<PathBuf>,
     /// Where to write them as comma-separated values.
     pub csv: Option<PathBuf>,
-    /// Where to draw costs without and with a floating-point unit.
+    /// Where to draw the costs without and with a floating-point unit.
     pub chart: Option<PathBuf>,
 }
 
 /// How firmware is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BuildOptions {
+pub struct FirmwareOptions {
     /// The tree.
     pub tree: FirmwareTree,
-    /// What the compiler makes small.
+    /// What the compiler optimizes for.
     pub optimize: Goal,
 }
 
-/// What the compiler makes small.
+/// What the compiler optimizes for.
 #[derive(
     Clone,
     Copy,
@@ -60,15 +60,15 @@ pub struct BuildOptions {
 #[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "lowercase")]
 pub enum Goal {
-    /// Time.
+    /// Speed.
     #[default]
     Speed,
-    /// Code.
+    /// Size.
     Size,
 }
 
 impl Goal {
-    /// The profile that firmware is built with.
+    /// Returns the profile with which firmware is built.
     pub fn profile(self) -> &'static str {
         match self {
             Self::Speed => "firmware",

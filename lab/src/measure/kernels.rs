@@ -1,16 +1,16 @@
-//! Single operations on boards: what one call of each costs, in instructions.
+//! Measures single operations on boards: the instructions of one call.
 //!
-//! The program `octray-kernels` calls each kernel on a set of inputs, the same in every arithmetic,
-//! and the emulator's plugin counts the instructions from entry to return. Costs are means over the
-//! inputs, less what an empty function takes.
+//! The program `octray-kernels` calls each kernel on a set of inputs, which is the same in every arithmetic. The
+//! emulator's plugin counts the instructions from entry to return. Costs are means over the inputs, without the
+//! instructions of an empty function.
 
 mod table;
 
 use super::board::{self, Board};
 use super::emulate::{Emulator, Run};
 use super::job::MeasureJob;
-use super::report::{Report, With};
-use super::workspace::Workspace;
+use super::report::{MeasureReport, With};
+use super::source_tree::SourceTree;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, Format};
 use octray_render::error::Error;
@@ -26,13 +26,13 @@ const PROGRAM: (&str, Option<&str>) = ("octray-kernels", Some("kernels"));
 /// The functions to watch.
 const WATCH: &str = "kernel_*";
 
-/// How a kernel's cost comes out of what was counted.
+/// How a kernel's cost follows from the counts.
 #[derive(Clone, Copy, Debug)]
 enum Cost {
-    /// Calls of one function, less as many of the empty one.
+    /// Calls of one function, minus as many calls of the empty one.
     Of(&'static str),
-    /// Calls of the first function, less as many of the second: per call, or per so many as the
-    /// program tells under a name.
+    /// Calls of the first function, minus as many calls of the second: per call, or per unit that the program counts
+    /// under a name.
     Beyond(&'static str, &'static str, Option<&'static str>),
 }
 
@@ -62,7 +62,7 @@ const KERNELS: [(&str, Cost); 14] = [
 
 /// A kernel on a board in an arithmetic.
 #[derive(Clone, Debug, Serialize)]
-struct Row {
+struct KernelRow {
     kernel: &'static str,
     board: &'static Board,
     target: &'static str,
@@ -72,13 +72,13 @@ struct Row {
     format: Option<Format>,
     /// `ok`, or why there are no numbers.
     outcome: String,
-    /// How often the kernel was executed.
+    /// The number of calls.
     calls: Option<u64>,
-    /// Of all these calls, without the calls themselves.
+    /// The instructions of all these calls, without the calls themselves.
     instructions: Option<u64>,
     /// Instructions per call.
     per_call: Option<f64>,
-    /// Hit tests: how many calls hit.
+    /// Hit tests: the number of hits.
     hits: Option<u64>,
 }
 
@@ -97,16 +97,15 @@ const COLUMNS: [&str; 11] = [
     "hits",
 ];
 
-/// Measures the kernels, and tells.
+/// Measures the kernels and prints the results.
 ///
 /// # Errors
-/// When something is missing, a result cannot be written, or any combination failed: then all
-/// others have been told.
+/// If something is missing, a result cannot be written, or a combination failed; then the others are printed first.
 pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
-    let root = Workspace::root()?;
+    let root = SourceTree::root()?;
     board::require(&job.boards, &root)?;
-    let workspace = Workspace::open(root)?;
-    let plugin = super::plugin(&workspace, interrupt)?;
+    let sources = SourceTree::open(root)?;
+    let plugin = super::plugin(&sources, interrupt)?;
     let emulator = Emulator {
         plugin: &plugin,
         patience: job.patience,
@@ -121,11 +120,11 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
                 ("OCTRAY_SCENE", "firmware-sim/kernels.scene"),
                 ("OCTRAY_ARITH", arith.name()),
                 ("OCTRAY_TREE", "compact-bvh8"),
-                // As many nodes as there can be.
+                // The largest possible number of nodes.
                 ("OCTRAY_LEAF_SIZE", "1"),
             ];
             let goal = job.build.optimize;
-            let built = workspace.firmware(PROGRAM, board, goal, &variables, interrupt)?;
+            let built = sources.firmware(PROGRAM, board, goal, &variables, interrupt)?;
             let run = match built {
                 Ok(program) => emulator.run(board, &program, interrupt)?,
                 Err(why) => Err(format!("not built: {why}")),
@@ -135,8 +134,8 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         }
     }
     drop(progress);
-    let report = Report {
-        with: With::of(&workspace, &job.boards),
+    let report = MeasureReport {
+        with: With::of(&sources, &job.boards),
         rows,
     };
     report.write(&COLUMNS, job, interrupt)?;
@@ -151,28 +150,29 @@ fn row(
     board: &'static Board,
     arith: Arith,
     run: &Result<Run, String>,
-) -> Row {
-    let told = |name: &str| run.as_ref().ok()?.told.get(name);
-    let measured = run.as_ref().map_err(Clone::clone).and_then(|run| {
-        measure(cost, run).ok_or_else(|| "not called as often as it should".into())
-    });
+) -> KernelRow {
+    let value = |name: &str| run.as_ref().ok()?.values.get(name);
+    let measured = run
+        .as_ref()
+        .map_err(Clone::clone)
+        .and_then(|run| measure(cost, run).ok_or_else(|| "a wrong number of calls".into()));
     let shape = kernel.strip_prefix("hit ");
-    Row {
+    KernelRow {
         kernel,
         board,
         target: board.target,
         core: board.core,
         arith,
-        format: told("arith").and_then(|name| Format::named(name)),
+        format: value("arith").and_then(|name| Format::named(name)),
         calls: measured.as_ref().ok().map(|m| m.0),
         instructions: measured.as_ref().ok().map(|m| m.1),
         per_call: (measured.as_ref().ok()).map(|&(calls, n)| n as f64 / calls as f64),
-        hits: shape.and_then(|shape| told(shape)?.parse().ok()),
+        hits: shape.and_then(|shape| value(shape)?.parse().ok()),
         outcome: measured.err().unwrap_or_else(|| "ok".into()),
     }
 }
 
-/// Calls and their instructions; `None` if two functions were not called equally often.
+/// Returns the number of calls and their instructions; `None` if two functions were not called equally often.
 fn measure(cost: Cost, run: &Run) -> Option<(u64, u64)> {
     let of = |function| Some(run.count.calls_of(function)).filter(|(calls, _)| *calls > 0);
     match cost {
@@ -189,7 +189,7 @@ fn measure(cost: Cost, run: &Run) -> Option<(u64, u64)> {
             let (less_calls, less) = of(less)?;
             let units = match unit {
                 None => calls,
-                Some(name) => run.told.get(name)?.parse().ok().filter(|n| *n > 0)?,
+                Some(name) => run.values.get(name)?.parse().ok().filter(|n| *n > 0)?,
             };
             let beyond = instructions.checked_sub(less)?;
             (calls == less_calls).then_some((units, beyond))
@@ -203,13 +203,13 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    fn run(told: &[(&str, &str)]) -> Run {
+    fn run(values: &[(&str, &str)]) -> Run {
         let report = "instructions 9\ncalls 4 12 a::kernel_empty\ncalls 2 30 a::kernel_add\n\
             calls 5 500 a::kernel_walk\ncalls 5 100 a::kernel_root\n\
             calls 3 90 a::kernel_two_lights\ncalls 2 30 a::kernel_one_light\n";
-        let told = told.iter().map(|&(name, n)| (name.into(), n.into()));
+        let values = values.iter().map(|&(name, n)| (name.into(), n.into()));
         Run {
-            told: told.collect::<BTreeMap<_, _>>(),
+            values: values.collect::<BTreeMap<_, _>>(),
             count: Count::parse(report).unwrap(),
         }
     }
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn differences_are_of_equally_many_calls() {
+    fn differences_need_equal_numbers_of_calls() {
         let step = Cost::Beyond("kernel_walk", "kernel_root", Some("steps"));
         assert_eq!(measure(step, &run(&[("steps", "8")])), Some((8, 400)));
         assert_eq!(measure(step, &run(&[("steps", "0")])), None);
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_failed_has_no_numbers() {
+    fn a_failed_run_has_no_numbers() {
         let row = row(
             KERNELS[0],
             &board::BOARDS[0],

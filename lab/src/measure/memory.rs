@@ -1,19 +1,19 @@
-//! How much memory a program takes, read from its file.
+//! Reads the size of a program's memory from its file.
 
 use object::elf::SHF_ALLOC;
 use object::{Object, ObjectSection, SectionFlags};
 
-/// Bytes of a program.
+/// Bytes of a program's memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// Code, constants, and the first values of variables.
+    /// Code, constants, and initial values of variables.
     pub flash: u64,
     /// Variables.
     pub ram: u64,
 }
 
 impl Memory {
-    /// Of an ELF file.
+    /// Returns the memory of an ELF file.
     ///
     /// # Errors
     /// If it is not one.

@@ -1,45 +1,45 @@
-//! The thesis's table III, today: what a picture costs on one core without and with its
-//! floating-point unit; and what emulated floats cost beside fixed point.
+//! The thesis's table III with today's boards: the cost of a picture on one core without and with its floating-point
+//! unit, and the cost of emulated floats relative to fixed point.
 
-use super::row::Row;
+use super::row::FrameRow;
 use super::table::{left, table};
 use octray_prepare::Arith;
 use octray_render::counts::thousands;
 
-/// Boards of one core each: without and with the use of its floating-point unit.
+/// Pairs of boards with the same core: without and with its floating-point unit.
 pub const CORES: [(&str, &str); 2] = [("m4", "m4f"), ("rv32imac", "rv32imafc")];
 
-/// What table III of the thesis has for two pictures on a Sun 3/110: minutes without the
-/// floating-point chip over minutes with it.
+/// The values of the thesis's table III for two pictures on a Sun 3/110: minutes without the floating-point chip over
+/// minutes with it.
 pub const THESIS: &str = "2.50 and 2.58 in the thesis, table III";
 
 /// A scene in an arithmetic on a core without and with its floating-point unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
     /// Without.
-    pub without: &'a Row,
+    pub without: &'a FrameRow,
     /// With.
-    pub with: &'a Row,
+    pub with: &'a FrameRow,
 }
 
 impl Pair<'_> {
-    /// Instructions without over instructions with.
+    /// Returns instructions without the unit over instructions with it.
     pub fn ratio(&self) -> f64 {
         per_pixel(self.without) / per_pixel(self.with)
     }
 }
 
-/// Instructions per pixel; not a number if there are none.
-pub fn per_pixel(row: &Row) -> f64 {
+/// Returns instructions per pixel; NaN if there are none.
+pub fn per_pixel(row: &FrameRow) -> f64 {
     row.cost.as_ref().map_or(f64::NAN, |cost| cost.per_pixel)
 }
 
-/// The pairs of one core, in the order of the rows.
-pub fn pairs<'a>(rows: &'a [Row], (without, with): (&str, &str)) -> Vec<Pair<'a>> {
-    let measured = |name: &str, row: &Row| row.board.name == name && row.cost.is_some();
+/// Returns the pairs of one core, in the order of the rows.
+pub fn pairs<'a>(rows: &'a [FrameRow], (without, with): (&str, &str)) -> Vec<Pair<'a>> {
+    let measured = |name: &str, row: &FrameRow| row.board.name == name && row.cost.is_some();
     (rows.iter().filter(|row| measured(without, row)))
         .filter_map(|row| {
-            let same = |other: &&Row| {
+            let same = |other: &&FrameRow| {
                 measured(with, other) && other.scene == row.scene && other.arith == row.arith
             };
             let with = rows.iter().find(same)?;
@@ -48,8 +48,8 @@ pub fn pairs<'a>(rows: &'a [Row], (without, with): (&str, &str)) -> Vec<Pair<'a>
         .collect()
 }
 
-/// The tables, as far as there are rows for them.
-pub fn text(rows: &[Row]) -> String {
+/// Formats the tables for which there are rows.
+pub fn text(rows: &[FrameRow]) -> String {
     let mut text = String::new();
     for core in CORES {
         let pairs = pairs(rows, core);
@@ -92,8 +92,8 @@ fn without_and_with(pairs: &[Pair<'_>], (without, with): (&str, &str)) -> String
     format!("\nInstructions per pixel without and with a floating-point unit ({THESIS})\n{table}\n")
 }
 
-/// On each board the geometric mean, over the scenes, of `f32` over the fixed point that is chosen.
-fn float_and_fixed(rows: &[Row]) -> String {
+/// Formats, per board, the geometric mean over the scenes of `f32` over the chosen fixed point.
+fn float_and_fixed(rows: &[FrameRow]) -> String {
     let mut boards: Vec<&str> = Vec::new();
     for row in rows {
         if !boards.contains(&row.board.name) {
@@ -108,7 +108,7 @@ fn float_and_fixed(rows: &[Row]) -> String {
                 .filter(move |row| row.board.name == board && row.arith == arith)
                 .filter(|row| row.cost.is_some())
         };
-        let pairs: Vec<(&Row, &Row)> = of(Arith::F32)
+        let pairs: Vec<(&FrameRow, &FrameRow)> = of(Arith::F32)
             .filter_map(|float| Some((float, of(Arith::Auto).find(|r| r.scene == float.scene)?)))
             .collect();
         if pairs.is_empty() {
@@ -132,7 +132,7 @@ fn float_and_fixed(rows: &[Row]) -> String {
     )
 }
 
-/// Of positive values; 1 of none.
+/// Returns the geometric mean of positive values; 1 if there are none.
 pub(crate) fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0), |(sum, count), x| (sum + x.ln(), count + 1));
     (sum / f64::from(count.max(1))).exp()
@@ -145,7 +145,7 @@ pub(super) mod tests {
     use super::*;
 
     /// A scene in f32 and in fixed point on four boards, with these instructions per pixel.
-    pub(in super::super) fn rows() -> Vec<Row> {
+    pub(in super::super) fn rows() -> Vec<FrameRow> {
         let costs = [
             ("m4", 900.0, 300.0),
             ("m4f", 100.0, 200.0),
@@ -167,7 +167,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn cores_are_paired_with_themselves() {
+    fn pairs_have_the_same_core() {
         let rows = rows();
         let ratios = |core| -> Vec<_> { pairs(&rows, core).iter().map(Pair::ratio).collect() };
         assert_eq!(ratios(CORES[0]), [9.0, 1.5]);

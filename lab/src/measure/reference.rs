@@ -1,5 +1,5 @@
-//! The same picture on the host: what the firmware's must be like to the byte, how many rays it
-//! takes, and how far it is from the one in 64-bit floats.
+//! Renders the same picture on the host: the firmware's must equal it, it gives the number of rays, and its distance
+//! from the picture in 64-bit floats is measured.
 
 use octray_prepare::{Arith, RenderSettings, TreeSettings};
 use octray_render::error::Error;
@@ -15,7 +15,7 @@ use std::num::NonZeroUsize;
 pub struct Reference {
     /// Picture, rays, format.
     pub traced: Rendering,
-    /// Its distance from the picture in `f64`, in dB; infinite if they are equal.
+    /// Its distance from the picture in `f64` (PSNR), in dB; infinite if they are equal.
     pub psnr: f64,
 }
 
@@ -37,7 +37,7 @@ impl Reference {
     }
 }
 
-/// The picture with the settings but in this arithmetic and with the default tree, on one thread.
+/// Renders with the settings, but in this arithmetic and with the default tree, on one thread.
 ///
 /// # Errors
 /// As [`render_with`].

@@ -1,19 +1,19 @@
-//! The results as JSON, and as comma-separated values.
+//! Writes the results as JSON and as comma-separated values.
 
 use super::board::Board;
 use super::emulate;
 use super::job::MeasureJob;
-use super::workspace::Workspace;
+use super::source_tree::SourceTree;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use serde::Serialize;
 use std::io;
 
-/// What was measured with.
+/// The software of the measurement.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct With {
-    /// The sources' commit, marked if something has been changed since.
+    /// The sources' commit, marked if the sources have been changed since.
     pub commit: String,
     /// The compiler.
     pub toolchain: String,
@@ -21,23 +21,23 @@ pub struct With {
     pub emulator: String,
 }
 
-/// Everything that was measured, and with what.
+/// All results, and the software of the measurement.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report<Row> {
-    /// What was measured with.
+pub struct MeasureReport<R> {
+    /// The software of the measurement.
     #[serde(flatten)]
     pub with: With,
-    /// A line for each combination.
-    pub rows: Vec<Row>,
+    /// One row per combination.
+    pub rows: Vec<R>,
 }
 
 impl With {
-    /// The versions of what firmware is built with and of what runs these boards.
-    pub fn of(workspace: &Workspace, boards: &[&Board]) -> Self {
+    /// Returns the versions of the software that builds firmware and runs these boards.
+    pub fn of(sources: &SourceTree, boards: &[&Board]) -> Self {
         let mut emulators: Vec<_> = boards.iter().map(|board| emulate::version(board)).collect();
         emulators.sort();
         emulators.dedup();
-        let versions = workspace.versions();
+        let versions = sources.versions();
         Self {
             commit: versions.commit,
             toolchain: versions.toolchain,
@@ -46,8 +46,8 @@ impl With {
     }
 }
 
-impl<Row: Serialize> Report<Row> {
-    /// Writes the files that were asked for.
+impl<R: Serialize> MeasureReport<R> {
+    /// Writes the requested files.
     ///
     /// # Errors
     /// If one cannot be written.
@@ -72,8 +72,8 @@ impl<Row: Serialize> Report<Row> {
         writeln!(out)
     }
 
-    /// Writes comma-separated values, with a line of names: these columns, and in every row with
-    /// what it was measured. What is not known is empty.
+    /// Writes comma-separated values with a header: these columns, and the software in every row. Unknown values are
+    /// empty.
     fn write_csv(&self, columns: &[&str], out: &mut dyn io::Write) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
         csv.write_record(columns.iter().chain(&["commit", "toolchain", "emulator"]))?;
@@ -99,13 +99,13 @@ impl<Row: Serialize> Report<Row> {
 pub(super) mod tests {
     use super::super::board::BOARDS;
     use super::super::job::Goal;
-    use super::super::row::{COLUMNS, Cost, Row};
+    use super::super::row::{COLUMNS, Cost, FrameRow};
     use super::*;
     use octray_prepare::{Arith, FirmwareTree, Format};
 
-    /// A row in which every number is another.
-    pub(in super::super) fn example() -> Row {
-        Row {
+    /// A row in which all numbers are different.
+    pub(in super::super) fn example() -> FrameRow {
+        FrameRow {
             scene: "figure-22".into(),
             objects: 45,
             width: 64,
@@ -151,9 +151,9 @@ pub(super) mod tests {
         }
     }
 
-    /// One that was measured, and one that failed.
-    pub(in super::super) fn rows() -> Vec<Row> {
-        let failed = Row {
+    /// A successful and a failed row.
+    pub(in super::super) fn rows() -> Vec<FrameRow> {
+        let failed = FrameRow {
             outcome: "stack overflow".into(),
             cost: None,
             ..example()
@@ -168,7 +168,7 @@ pub(super) mod tests {
             emulator: "QEMU 7".into(),
             ..With::default()
         };
-        let report = Report { with, rows: rows() };
+        let report = MeasureReport { with, rows: rows() };
         report.write_csv(&COLUMNS, &mut bytes).unwrap();
         let mut csv = csv::Reader::from_reader(&*bytes);
         let names = csv.headers().unwrap().clone();
@@ -183,7 +183,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn no_column_is_forgotten() {
+    fn every_field_has_a_column() {
         let row = serde_json::to_value(example()).unwrap();
         let mut keys: Vec<_> = row.as_object().unwrap().keys().map(|k| &**k).collect();
         keys.sort_unstable();

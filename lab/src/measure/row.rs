@@ -1,4 +1,4 @@
-//! One line of the results: what was measured, and what came out.
+//! One row of the results: the combination, and its measurement.
 
 use super::board::Board;
 use super::count::{Count, is_float_library};
@@ -10,22 +10,22 @@ use octray_prepare::{Arith, FirmwareTree, Format};
 use octray_render::stats::Rays;
 use serde::Serialize;
 
-/// A scene on a board in an arithmetic.
+/// A scene on a board in an arithmetic, measured.
 #[derive(Clone, Debug, Serialize)]
-pub struct Row {
+pub struct FrameRow {
     /// The scene's name.
     pub scene: String,
-    /// How many objects it has.
+    /// The number of its objects.
     pub objects: usize,
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// The most bounces.
+    /// The maximum number of bounces.
     pub max_depth: u32,
     /// Pixels that one ray colours.
     pub pixels_per_ray: u32,
-    /// The weight below which no ray was traced.
+    /// Rays of a smaller weight were not traced.
     pub cut_off: f64,
     /// The board.
     pub board: &'static Board,
@@ -33,14 +33,14 @@ pub struct Row {
     pub arith: Arith,
     /// The tree.
     pub tree: FirmwareTree,
-    /// What the compiler was to make small.
+    /// What the compiler optimized for.
     pub optimize: Goal,
     /// `ok`, or why there are no numbers.
     pub outcome: String,
     /// The numbers, if there are any.
     #[serde(flatten)]
     pub cost: Option<Cost>,
-    /// Each function's own instructions, the costliest first.
+    /// Each function's own instructions, the most expensive first.
     #[serde(skip)]
     pub functions: Vec<(String, u64)>,
 }
@@ -88,10 +88,10 @@ pub const COLUMNS: [&str; 39] = [
     "hash",
 ];
 
-/// What a frame costs. Instructions and rays are exact; cycles are an estimate.
+/// The cost of a frame. Instructions and rays are exact; cycles are an estimate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Rust's target.
+    /// The target triple in Rust.
     pub target: &'static str,
     /// The core.
     pub core: &'static str,
@@ -105,9 +105,9 @@ pub struct Cost {
     pub rays: u64,
     /// Instructions per ray.
     pub per_ray: f64,
-    /// Rays that look for the closest hit: all but shadow rays.
+    /// Rays that search for the closest hit: all except shadow rays.
     pub closest_rays: u64,
-    /// Instructions of the search, per ray that looks for the closest hit.
+    /// Instructions of the search, per ray that searches for the closest hit.
     pub per_closest_ray: Option<f64>,
     /// Rays to lights.
     pub shadow_rays: u64,
@@ -117,7 +117,7 @@ pub struct Cost {
     pub load_store: u64,
     /// Jumps, calls, returns.
     pub branch: u64,
-    /// Integer products.
+    /// Integer multiplications.
     pub multiply: u64,
     /// Integer divisions.
     pub divide: u64,
@@ -125,13 +125,13 @@ pub struct Cost {
     pub float: u64,
     /// The rest.
     pub other: u64,
-    /// Those of all these that belong to the library for floats.
+    /// The instructions in the library that emulates floating point, included above.
     pub float_library: u64,
-    /// Cycles, estimated: at least.
+    /// Estimated cycles: lower bound.
     pub estimated_cycles_least: Option<u64>,
-    /// Cycles, estimated: at most.
+    /// Estimated cycles: upper bound.
     pub estimated_cycles_most: Option<u64>,
-    /// Where the estimate's table comes from.
+    /// The source of the table for the estimate.
     pub estimate_source: Option<&'static str>,
     /// Pixels per second and MHz at one instruction per cycle: computed, not measured.
     pub computed_pixels_per_s_mhz: f64,
@@ -139,23 +139,23 @@ pub struct Cost {
     pub flash: u64,
     /// Bytes of variables.
     pub ram: u64,
-    /// Bytes of the deepest stack.
+    /// Maximum depth of the stack in bytes.
     pub stack: u64,
-    /// Distance from the picture in `f64` in dB; `None` if they are equal.
+    /// Distance from the picture in `f64` (PSNR), in dB; `None` if they are equal.
     pub psnr: Option<f64>,
     /// The picture's hash.
     pub hash: String,
 }
 
-impl Row {
-    /// Instructions of the frame.
+impl FrameRow {
+    /// Returns the instructions of the frame.
     pub fn instructions(&self) -> Option<u64> {
         self.cost.as_ref().map(|cost| cost.instructions)
     }
 }
 
 impl Cost {
-    /// From what was counted on the board, and what the host knows of the picture.
+    /// Combines the counts of the board with the host's data of the picture.
     pub fn new(
         board: &Board,
         count: &Count,
@@ -170,7 +170,7 @@ impl Cost {
         let closest = rays.primary + rays.reflected + rays.transmitted;
         let (found, finding) = count.calls_of("nearest");
         let seeking = count.calls_of("any_hit").1 + count.calls_of("blocks").1;
-        // If the search is no function of its own, or is called for something else, it is unknown.
+        // If the search is not a function of its own, or is also called for other purposes, its cost is unknown.
         let known = found == closest && found > 0;
         let per = |n: u64, of: u64| n as f64 / of as f64;
         let estimate = board.cycles.and_then(|table| table.estimate(count));

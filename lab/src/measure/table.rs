@@ -1,11 +1,11 @@
-//! The results as a table to read.
+//! The results as a table.
 
-use super::row::{Cost, Row};
+use super::row::{Cost, FrameRow};
 use comfy_table::{CellAlignment, Table, presets};
 use octray_render::counts::thousands;
 
-/// The table, what follows it, and the costliest functions of each row.
-pub fn text(rows: &[Row], below: &str, functions: usize) -> String {
+/// Formats the table, the text `below`, and the most expensive functions of each row.
+pub fn text(rows: &[FrameRow], below: &str, functions: usize) -> String {
     let mut text = frames(rows) + below;
     for row in rows.iter().filter(|_| functions > 0) {
         let Some(all) = row.instructions() else {
@@ -20,8 +20,8 @@ pub fn text(rows: &[Row], below: &str, functions: usize) -> String {
     text
 }
 
-/// The table: a line for each row.
-fn frames(rows: &[Row]) -> String {
+/// Formats the table: a line per row.
+fn frames(rows: &[FrameRow]) -> String {
     let mut table = table(&[
         "scene",
         "board",
@@ -93,7 +93,7 @@ fn millions(n: u64) -> String {
     format!("{:.1}", n as f64 / 1e6)
 }
 
-/// A table with these columns, all of numbers.
+/// Returns a table with these columns, all for numbers.
 pub(crate) fn table(columns: &[&str]) -> Table {
     let mut table = Table::new();
     table
@@ -105,7 +105,7 @@ pub(crate) fn table(columns: &[&str]) -> Table {
     table
 }
 
-/// The first columns hold words.
+/// Aligns the first columns to the left, for words.
 pub(crate) fn left(table: &mut Table, columns: usize) {
     for column in table.column_iter_mut().take(columns) {
         column.set_cell_alignment(CellAlignment::Left);
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failure_stands_where_numbers_would() {
+    fn a_failure_takes_the_place_of_numbers() {
         let text = text(&rows(), "", 0);
         let last = text.lines().last().unwrap();
         assert!(last.contains("| stack overflow "), "{text}");
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn the_costliest_functions_are_told_if_asked_for() {
+    fn the_most_expensive_functions_are_printed_on_request() {
         let text = text(&rows(), "", 1);
         assert!(text.contains("figure-22 m3 auto\n   44.9 %       25,000,000  f\n"));
         assert!(!text.contains("  g"), "{text}");

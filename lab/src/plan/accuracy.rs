@@ -1,5 +1,5 @@
-//! What a picture needs to be accurate enough, whatever computes it: bounces, pixels per ray, and in each
-//! family of numbers the narrowest format. Found by rendering.
+//! Finds by rendering what a picture needs to be accurate enough on any machine: bounces, pixels per ray, and in each
+//! family of numbers the narrowest format.
 
 use super::events::{Events, Probe};
 use super::job::Numbers;
@@ -16,78 +16,78 @@ use octray_scenes::model::Scene;
 use serde::Serialize;
 use strum::VariantArray;
 
-/// The tree that pictures are compared with; all trees give the same.
+/// The tree with which pictures are compared; all trees give the same picture.
 const TREE: accel::BuildOptions = accel::BuildOptions {
     depth: COMPACT_MAX_DEPTH,
     leaf_size: 2,
 };
 
-/// The 32-bit fixed-point formats, the narrowest fraction first.
+/// Returns the 32-bit fixed-point formats, the fewest fraction bits first.
 pub fn fixed_point() -> impl DoubleEndedIterator<Item = Format> {
     let all = Format::VARIANTS.iter().copied();
     all.filter(|format| format.family() == Family::Fixed)
 }
 
-/// The scene, and the picture to come close to.
+/// The scene, and the requirements on its picture.
 #[derive(Debug)]
 pub struct Scope<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Columns and rows.
     pub size: (u32, u32),
-    /// The least distance from the exact picture, in dB.
+    /// The least distance from the exact picture (PSNR), in dB.
     pub min_psnr: f64,
-    /// Asks to stop.
+    /// Requests a stop.
     pub interrupt: &'a Interrupt,
 }
 
-/// What the picture needs.
+/// The requirements of the picture.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
-    /// In 64-bit floats, with as many bounces as there can be.
+    /// The picture in 64-bit floats with the largest number of bounces.
     pub exact: Picture,
-    /// The fewest bounces with which the picture is the exact one.
+    /// The fewest bounces that give the exact picture.
     pub depth: u32,
-    /// What happens then, in 64-bit floats.
+    /// The events with these bounces, in 64-bit floats.
     pub full: Events,
-    /// What happens with one bounce less, and the distance; none if there are no bounces.
+    /// The events with one bounce less, and the distance in dB; `None` without bounces.
     pub shallower: Option<(Events, f64)>,
-    /// What happens with one ray for four pixels, and the distance.
+    /// The events with one ray for four pixels, and the distance in dB.
     pub coarse: (Events, f64),
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
-    /// The largest number that the scene can lead to.
+    /// The largest number that can occur.
     pub largest: Bound,
-    /// Bits before the point that it takes.
+    /// The bits before the point that it needs.
     pub integer_bits: u32,
-    /// The least distance that was asked for, in dB.
+    /// The requested least distance, in dB.
     pub min_psnr: f64,
-    /// Why the scene has no fixed point, if it was tried and has none.
+    /// Why the scene does not fit fixed point, if it was tried and does not.
     pub refused: Option<String>,
-    /// Every arithmetic that was tried, the finest first.
+    /// Every tried arithmetic, the finest first.
     pub tried: Vec<Tried>,
 }
 
-/// An arithmetic, and how far its picture is from the exact one.
+/// A tried arithmetic, and the distance of its picture from the exact one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tried {
     /// Its format.
     pub format: Format,
-    /// Bits behind the point; none for floats.
+    /// Fraction bits; `None` for floats.
     pub fraction_bits: Option<u32>,
-    /// In dB; none if it is the same picture.
+    /// In dB; `None` if the pictures are equal.
     pub psnr: Option<f64>,
-    /// What it is too coarse for, if anything.
+    /// What is too fine for the format, if anything.
     pub too_fine: Option<String>,
-    /// Whether that is accurate enough, nothing is too fine, and nothing overflows.
+    /// Whether it is accurate enough, nothing is too fine, and nothing overflows.
     pub does: bool,
 }
 
 impl Scope<'_> {
-    /// What the picture needs, when only some arithmetics come into question.
+    /// Finds what the picture needs, considering only some arithmetics.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene is too large for a packed tree; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene is too large for a compact BVH; [`Error::Interrupted`].
     pub fn accuracy(&self, numbers: Numbers) -> Result<Accuracy, Error> {
         let exact = self
             .render(&self.plan(Format::F64, PixelsPerRay::One, RenderSettings::DEEPEST))?
@@ -136,7 +136,7 @@ impl Scope<'_> {
         Ok(accuracy)
     }
 
-    /// A plan with a tree like any other, and room for all rays.
+    /// Returns a plan with the default tree and capacity for all rays.
     pub fn plan(&self, format: Format, pixels_per_ray: PixelsPerRay, max_depth: u32) -> Plan {
         Plan {
             scene: fingerprint(self.scene),
@@ -154,18 +154,18 @@ impl Scope<'_> {
     /// Renders a plan.
     ///
     /// # Errors
-    /// As [`Probe::render`].
+    /// Those of [`Probe::render`].
     pub fn render(&self, plan: &Plan) -> Result<Probe, Error> {
         Probe::render(self.scene, plan, self.interrupt)
     }
 
-    /// The fewest bounces from which on the picture is the exact one.
+    /// Returns the fewest bounces that give the exact picture.
     fn depth(&self, exact: &Picture) -> Result<u32, Error> {
         let is_exact = |depth| -> Result<bool, Error> {
             let probe = self.render(&self.plan(Format::F64, PixelsPerRay::One, depth))?;
             Ok(Difference::between(exact, &probe.picture)?.is_zero())
         };
-        // A surface that lets more light through than it gets takes light away itself.
+        // A surface that transmits more light than it receives subtracts light of its own.
         if (self.scene.surfaces.iter()).any(|surface| surface.refract > 1.0) {
             let mut depth = RenderSettings::DEEPEST;
             while depth > 0 && is_exact(depth - 1)? {
@@ -173,8 +173,8 @@ impl Scope<'_> {
             }
             return Ok(depth);
         }
-        // Otherwise more bounces only add light, so that no level goes back, and between a picture like the
-        // exact one and that nothing can have changed.
+        // Otherwise more bounces only add light, so no level decreases, and a picture that equals the exact one stays
+        // equal with more bounces.
         let (mut low, mut high) = (0, RenderSettings::DEEPEST);
         // Few scenes need many bounces: the steps grow before they shrink.
         let mut step = 1;
@@ -188,7 +188,7 @@ impl Scope<'_> {
         Ok(low)
     }
 
-    /// Tries floats, and fixed point from the finest format to the first one that does not do.
+    /// Tries floats, and fixed point from the finest format to the first one that is not accurate enough.
     fn formats(&self, accuracy: &mut Accuracy, numbers: Numbers) -> Result<(), Error> {
         accuracy.tried.clear();
         accuracy.refused = None;
@@ -198,7 +198,7 @@ impl Scope<'_> {
         let fixed = fixed_point().rev().filter(|_| numbers != Numbers::F32);
         for format in fixed {
             match self.attempt(accuracy, format) {
-                // What is too large for this format may fit the next.
+                // A value that overflows this format may fit the next.
                 Err(Error::Failed(why)) => accuracy.refused = Some(why),
                 tried => {
                     let tried = tried?;
@@ -228,7 +228,7 @@ impl Scope<'_> {
 }
 
 impl Accuracy {
-    /// The narrowest format of each family that does.
+    /// Returns the narrowest sufficient format of each family.
     pub fn narrowest(&self) -> impl Iterator<Item = &Tried> {
         let of = |fixed: bool| {
             let mut tried = self.tried.iter();
@@ -237,7 +237,7 @@ impl Accuracy {
         [of(true), of(false)].into_iter().flatten()
     }
 
-    /// The one that comes closest to the exact picture, of those that nothing is too fine for if there are any.
+    /// Returns the format closest to the exact picture, preferably one for which nothing is too fine.
     pub fn closest(&self) -> Option<&Tried> {
         let distance = |tried: &Tried| tried.psnr.unwrap_or(f64::INFINITY);
         (self.tried.iter()).max_by(|a, b| {
@@ -248,7 +248,7 @@ impl Accuracy {
     }
 }
 
-/// The fewest bits before the point with which a format holds a number.
+/// Returns the fewest bits before the point with which a format holds a number.
 fn integer_bits(largest: f64) -> u32 {
     (0..31)
         .find(|bits| largest < f64::from(1u32 << bits) * (1.0 - 1e-6))
@@ -278,10 +278,10 @@ mod tests {
         }
     }
 
-    /// Before a mirror a white sky; through it panes are seen, of which the third takes away three times what it
-    /// shines: the first bounce makes the picture white, the second black as it was.
+    /// A white sky before a mirror. Through the mirror panes are seen, of which the third subtracts three times the
+    /// light that it emits: the first bounce makes the picture white, the second makes it black again.
     #[test]
-    fn bounces_that_take_light_away_are_not_skipped() {
+    fn bounces_that_subtract_light_are_not_skipped() {
         let pane =
             |z: i32, surface: &str| format!("f {surface} p 4 -9 -9 {z} 9 -9 {z} 9 9 {z} -9 9 {z} ");
         let black = "0 0 0 0 0 0 0 0 0 0";

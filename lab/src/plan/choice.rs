@@ -1,9 +1,9 @@
-//! Which arithmetic and which tree: every candidate's cost is predicted, and the cheapest that fits is taken.
+//! Chooses arithmetic and tree: predicts every candidate's cost and takes the cheapest that fits.
 
 use super::accuracy::{Accuracy, Scope};
 use super::events::{Events, Probe};
-use super::job::Bounds;
-use super::model::{Family, Model, Parts, Prediction, Weights};
+use super::job::PlanLimits;
+use super::model::{Family, LentBytes, Model, Prediction, Weights};
 use crate::measure::board::Board;
 use octray_core::accel::{BuildOptions, COMPACT_MAX_DEPTH};
 use octray_prepare::Format;
@@ -11,58 +11,59 @@ use octray_prepare::bake::{Baked, bake};
 use octray_prepare::plan::Plan;
 use octray_render::error::Error;
 
-/// Objects up to which it is tried to do without a tree.
+/// Up to this many objects, plans without a tree are tried.
 const FEW: usize = 64;
 
-/// Leaf sizes that are tried.
+/// The leaf sizes to try.
 const LEAVES: [u32; 5] = [1, 2, 3, 4, 8];
 
-/// A plan that is accurate enough, and what it costs.
+/// A plan that is accurate enough, with its cost.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// The plan.
     pub plan: Plan,
-    /// What was counted.
+    /// The events of its frame.
     pub events: Events,
-    /// What would be baked.
+    /// The baked scene.
     pub baked: Baked,
     /// Nodes of the tree.
     pub nodes: u64,
-    /// The scene is scaled by 2 to this power.
+    /// The power of two by which the scene is scaled.
     pub scale: i32,
-    /// What it costs.
+    /// Its predicted cost.
     pub cost: Prediction,
 }
 
 impl Candidate {
-    /// By how much of a bound this needs more, at the most; not positive if it fits.
-    pub fn excess(&self, bounds: &Bounds) -> f64 {
+    /// Returns the largest relative excess over a limit; not positive if it fits.
+    pub fn excess(&self, limits: &PlanLimits) -> f64 {
         let over = |needs: u64, has: u64| needs as f64 / has.max(1) as f64 - 1.0;
         f64::max(
-            over(self.cost.flash(), bounds.flash),
-            over(self.cost.ram(), bounds.ram),
+            over(self.cost.flash(), limits.flash),
+            over(self.cost.ram(), limits.ram),
         )
     }
 
-    /// Whether this fits.
-    pub fn fits(&self, bounds: &Bounds) -> bool {
-        self.cost.flash() <= bounds.flash && self.cost.ram() <= bounds.ram
+    /// Returns whether it fits.
+    pub fn fits(&self, limits: &PlanLimits) -> bool {
+        self.cost.flash() <= limits.flash && self.cost.ram() <= limits.ram
     }
 }
 
-/// Predicts what plans cost on a board.
+/// Predicts the costs of plans on a board.
 #[derive(Debug)]
 pub struct Chooser<'a> {
     /// The scene and its picture.
     pub scope: &'a Scope<'a>,
     /// The board.
     pub board: &'a Board,
-    /// What costs how much.
+    /// The model of costs.
     pub model: &'a Model,
 }
 
 impl Chooser<'_> {
-    /// All candidates: of each arithmetic that does, with trees of several leaf sizes and depths, and without.
+    /// Returns all candidates: in each sufficient arithmetic, with trees of several leaf sizes and depths, and without
+    /// a tree.
     ///
     /// # Errors
     /// [`Error::Interrupted`]; [`Error::Failed`] if the model does not know the board.
@@ -98,15 +99,15 @@ impl Chooser<'_> {
         {
             all.push(self.candidate(packed(COMPACT_MAX_DEPTH, leaf_size))?);
         }
-        // Shallower trees of the leaf size that is best.
+        // Shallower trees with the best leaf size.
         let best = cheapest(&all[first..]).map(|best| best.plan.tree);
         if let Some(Some(BuildOptions { depth, leaf_size })) = best {
             for depth in (1..depth).rev() {
                 let shallow = self.candidate(packed(depth, leaf_size))?;
-                let dear = cheapest(&all[first..])
+                let too_expensive = cheapest(&all[first..])
                     .is_some_and(|best| shallow.cost.instructions > 1.2 * best.cost.instructions);
                 all.push(shallow);
-                if dear {
+                if too_expensive {
                     break;
                 }
             }
@@ -114,7 +115,7 @@ impl Chooser<'_> {
         Ok(())
     }
 
-    /// A plan with its capacities as small as they can be, and what it costs.
+    /// Returns a plan with its capacities minimised, and its cost.
     fn candidate(&self, mut plan: Plan) -> Result<Candidate, Error> {
         let probe: Probe = self.scope.render(&plan)?;
         plan.rays = probe.waiting;
@@ -125,7 +126,7 @@ impl Chooser<'_> {
         let failed = Error::Failed;
         let options = (plan.options(scene, "")).map_err(|why| failed(why.to_string()))?;
         let baked = bake(scene, &options).map_err(|why| failed(why.to_string()))?;
-        let lent = Parts::of(&plan, &baked, scene.lights.len());
+        let lent = LentBytes::of(&plan, &baked, scene.lights.len());
         let weights = self.weights(plan.format)?;
         Ok(Candidate {
             cost: weights.predict(&probe.events, &baked, plan.tree, lent),
@@ -137,21 +138,23 @@ impl Chooser<'_> {
         })
     }
 
-    /// What things cost in a format.
+    /// Returns the weights for a format.
     ///
     /// # Errors
-    /// [`Error::Failed`] if that was not measured.
+    /// [`Error::Failed`] if the model has none.
     pub fn weights(&self, format: Format) -> Result<&Weights, Error> {
         let (target, family) = (self.board.target, Family::of(format));
         self.model.of(target, family).ok_or_else(|| {
             let name = family.name();
-            Error::Failed(format!("nothing is known of what {name} costs on {target}"))
+            Error::Failed(format!(
+                "the model does not know the cost of {name} on {target}"
+            ))
         })
     }
 }
 
-/// The candidate of fewest instructions. What differs by less than half a percent costs the same: then it is
-/// the one that takes least flash.
+/// Returns the candidate with the fewest instructions. Candidates within half a percent count as equal; of these, the
+/// one with the least flash is taken.
 pub fn cheapest<'a>(candidates: impl IntoIterator<Item = &'a Candidate>) -> Option<&'a Candidate> {
     let all: Vec<_> = candidates.into_iter().collect();
     let instructions = |c: &&Candidate| c.cost.instructions;
@@ -161,10 +164,10 @@ pub fn cheapest<'a>(candidates: impl IntoIterator<Item = &'a Candidate>) -> Opti
         .min_by_key(|c| c.cost.flash())
 }
 
-/// The cheapest candidate that fits, or if none does the one that is nearest to it.
-pub fn choose<'a>(candidates: &'a [Candidate], bounds: &Bounds) -> Option<&'a Candidate> {
-    cheapest(candidates.iter().filter(|c| c.fits(bounds))).or_else(|| {
-        let excess = |c: &&Candidate| c.excess(bounds);
+/// Returns the cheapest candidate that fits, or the one that comes closest if none does.
+pub fn choose<'a>(candidates: &'a [Candidate], limits: &PlanLimits) -> Option<&'a Candidate> {
+    cheapest(candidates.iter().filter(|c| c.fits(limits))).or_else(|| {
+        let excess = |c: &&Candidate| c.excess(limits);
         (candidates.iter()).min_by(|a, b| excess(a).total_cmp(&excess(b)))
     })
 }

@@ -1,14 +1,15 @@
-//! A comb: what a polygon's edges cost is learnt from it, as the polygons of other scenes have few, or few at any height.
+//! A comb-shaped polygon. The cost of a polygon's edges is learnt from it, because the polygons of other scenes have
+//! few edges, or few at any height.
 
 use octray_render::error::Error;
 use octray_scenes::model::Scene;
 use std::fmt::Write;
 
-/// A comb of so many upright teeth before a wall that mirrors a little. A level line through the teeth crosses both
-/// edges of each, so bands spare a test nothing.
+/// Returns a comb with this many upright teeth before a slightly mirroring wall. A horizontal line through the teeth
+/// crosses both edges of each tooth, so bands save nothing.
 ///
 /// # Errors
-/// If it is no scene: without teeth.
+/// If it is not a valid scene: without teeth.
 pub fn comb(teeth: u32) -> Result<Scene, Error> {
     let mut text = String::from(
         "v 20 10 150 at 0 0 0 up 0 1 0 angle 50 resolution 64 48 b 0.2 0.3 0.4 l 60 90 140 0.8 l -80 20 90 0.4 \

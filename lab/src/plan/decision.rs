@@ -1,4 +1,4 @@
-//! A decision of a plan, what the next cheaper choice would bring, and what a frame costs.
+//! A decision of a plan, the effect of the next cheaper choice, and the cost of a frame.
 
 use super::choice::Candidate;
 use super::model::Prediction;
@@ -8,50 +8,50 @@ use serde::Serialize;
 /// A decision.
 #[derive(Clone, Debug, Serialize)]
 pub struct Decision {
-    /// About what.
+    /// The subject.
     pub about: &'static str,
     /// What was chosen.
     pub chosen: String,
-    /// Why.
+    /// The reason.
     pub why: String,
-    /// What the next cheaper choice would bring.
+    /// The effect of the next cheaper choice.
     pub cheaper: Option<Cheaper>,
 }
 
-/// What another choice would bring, compared with the plan.
+/// The effect of another choice, relative to the plan.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Cheaper {
     /// The choice.
     pub choice: String,
-    /// Its distance from the exact picture, in dB, where the picture is another one.
+    /// Its distance from the exact picture, in dB, if its picture differs.
     pub psnr: Option<f64>,
-    /// By how much of themselves instructions grow.
+    /// The relative change of instructions.
     pub instructions: Option<f64>,
-    /// Bytes of flash more.
+    /// Additional bytes of flash.
     pub flash: Option<i64>,
-    /// Bytes of RAM more.
+    /// Additional bytes of RAM.
     pub ram: Option<i64>,
 }
 
-/// What a frame costs, as predicted.
+/// The predicted cost of a frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cost {
-    /// Instructions, start-up and panel left out.
+    /// Instructions, without start-up and panel.
     pub instructions: u64,
     /// Bytes of flash.
     pub flash: u64,
-    /// Bytes of RAM, the stack included.
+    /// Bytes of RAM, including the stack.
     pub ram: u64,
-    /// Distance from the exact picture, in dB; none if it is the same.
+    /// Distance from the exact picture, in dB; `None` if it is equal.
     pub psnr: Option<f64>,
-    /// In detail.
+    /// The details.
     pub detail: Prediction,
     /// The typical relative errors of instructions, flash and RAM, for scenes that the model was not fitted to.
     pub errors: [f64; 3],
 }
 
 impl Cheaper {
-    /// It to read.
+    /// Formats it as text.
     pub(super) fn text(&self) -> String {
         let bytes = |more: Option<i64>, what: &str| {
             let more = more.filter(|more| *more != 0)?;
@@ -76,7 +76,7 @@ impl Cheaper {
         format!("{}, {}", self.choice, parts.join(", "))
     }
 
-    /// What another candidate costs more than the chosen one.
+    /// Returns the additional cost of another candidate, relative to the chosen one.
     pub(super) fn candidate(choice: String, other: &Candidate, chosen: &Candidate) -> Self {
         let more = |other: u64, chosen: u64| Some(other as i64 - chosen as i64);
         Self {
@@ -89,7 +89,7 @@ impl Cheaper {
     }
 }
 
-/// A distance from the exact picture; none if it is the same.
+/// Formats a distance from the exact picture; `None` means equal.
 pub(super) fn decibels(psnr: Option<f64>) -> String {
     psnr.map_or("the exact picture".into(), |psnr| format!("{psnr:.1} dB"))
 }

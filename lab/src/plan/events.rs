@@ -1,4 +1,4 @@
-//! What happens while a frame is traced, counted on the host: what instructions are predicted from.
+//! Counts, on the host, the events of tracing a frame; instructions are predicted from them.
 
 use octray_core::observe::{Counters, QueryCounts, RayKind};
 use octray_prepare::plan::Plan;
@@ -16,10 +16,10 @@ use std::num::NonZeroU32;
 /// Rows of the strip that firmware renders at a time.
 pub const ROWS: usize = 4;
 
-/// How many events of a search there are.
+/// The number of events of a search.
 pub const OF_SEARCH: usize = 17;
 
-/// How many events of the rest there are.
+/// The number of other events.
 pub const OF_REST: usize = 7;
 
 /// Their names, in the order of [`Events::search`] and [`Events::rest`].
@@ -50,18 +50,19 @@ pub const NAMES: [&str; OF_SEARCH + OF_REST] = [
     "light in sight",
 ];
 
-/// What was counted.
+/// Counts of events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Events {
     /// In searches for the closest hit, and in searches along shadow rays.
     pub search: [[f64; OF_SEARCH]; 2],
-    /// In all else.
+    /// Outside of searches.
     pub rest: [f64; OF_REST],
 }
 
 impl Events {
-    /// Of a frame with so many lights. Pixels that no ray is for are no event: they cost next to nothing, and in
-    /// measured frames there are about as many pixels as primary rays, so what a pixel costs could not be told.
+    /// Returns the events of a frame with this many lights. Pixels without a ray are not an event: they are almost
+    /// free, and measured frames have about as many pixels as primary rays, so the cost of a pixel could not be
+    /// separated.
     pub fn new(counters: &Counters, lights: usize) -> Self {
         let rays = |kind| counters.rays_of(kind) as f64;
         let shadow = rays(RayKind::Shadow);
@@ -84,7 +85,7 @@ impl Events {
         };
         let [closest, blocking] = &counters.queries;
         let hits = counters.hits.iter().sum::<u64>() as f64;
-        // Which of the objects met was the closest is not counted: each kind has its share.
+        // It is not counted which of the hit objects was the closest: each kind gets its share.
         let met = closest.met.iter().sum::<u64>().max(1) as f64;
         let cones = hits * closest.met[3] as f64 / met;
         Self {
@@ -104,7 +105,7 @@ impl Events {
         }
     }
 
-    /// Steps and tests for each ray.
+    /// Returns steps and tests per ray.
     pub fn per_ray(&self) -> [f64; 2] {
         let [closest, shadow] = &self.search;
         let sum = |events: std::ops::Range<usize>| -> f64 {
@@ -115,29 +116,29 @@ impl Events {
     }
 }
 
-/// A picture, and what happened while it was traced.
+/// A picture, and the events of tracing it.
 #[derive(Clone, Debug)]
 pub struct Probe {
     /// The picture.
     pub picture: Picture,
-    /// What happened.
+    /// The events.
     pub events: Events,
-    /// The most rays that ever waited.
+    /// The largest number of rays in the queue.
     pub waiting: usize,
-    /// Fixed-point results that had to be clamped.
+    /// Fixed-point results that were clamped.
     pub saturations: u64,
-    /// What the format is too coarse for, if anything.
+    /// What is too fine for the format, if anything.
     pub too_fine: Option<String>,
     /// Nodes of the tree.
     pub nodes: u64,
-    /// The deepest level of the tree, the root being level 1; 0 without a tree.
+    /// The deepest level of the tree, where the root is level 1; 0 without a tree.
     pub depth: u32,
-    /// The scene was scaled by 2 to this power.
+    /// The power of two by which the scene was scaled.
     pub scale: i32,
 }
 
 impl Probe {
-    /// Traces what a plan says, in its own arithmetic and with its own tree, on all cores.
+    /// Traces a plan in its own arithmetic and with its own tree, on all cores.
     ///
     /// # Errors
     /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`].
@@ -147,7 +148,7 @@ impl Probe {
     }
 
     fn trace(renderer: &dyn Renderer, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {
-        // As the firmware cuts the picture, which forgets between strips what blocked the lights.
+        // As the firmware divides the picture; it clears the shadow cache between strips.
         let work = Schedule {
             policy: Policy::Dynamic,
             tile: Some(TileSize::strip(

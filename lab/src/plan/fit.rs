@@ -1,11 +1,11 @@
-//! Fitting the model's weights to measurements.
+//! Fits the model's weights to measurements.
 
 use super::model::{Family, Model, Weights, code};
 use super::record::Sample;
 use std::collections::BTreeSet;
 
-/// The weights, none of them negative, of the least sum of squared relative errors: by coordinate
-/// descent. Each row holds counts of events and what they cost together.
+/// Returns the non-negative weights with the least sum of squared relative errors, found by coordinate descent. Each
+/// row holds counts of events and their total cost.
 pub fn least_squares<const N: usize>(rows: &[([f64; N], f64)]) -> [f64; N] {
     let mut weights = [0.0; N];
     let shares: Vec<[f64; N]> = (rows.iter())
@@ -30,7 +30,7 @@ pub fn least_squares<const N: usize>(rows: &[([f64; N], f64)]) -> [f64; N] {
     weights
 }
 
-/// The model that fits all samples.
+/// Returns the model fitted to all samples.
 pub fn model(samples: &[Sample]) -> Model {
     let all = samples.iter();
     let pairs: BTreeSet<_> = all.map(|s| (s.board.target, s.family.name())).collect();
@@ -47,13 +47,13 @@ pub fn model(samples: &[Sample]) -> Model {
     Model(weights.collect())
 }
 
-/// What fits samples of one target and family; the errors are not known yet.
+/// Returns the weights fitted to samples of one target and family, with unknown errors.
 fn weights(target: &str, family: Family, samples: &[&Sample]) -> Weights {
     let mut search = Vec::new();
     let mut rest = Vec::new();
     for sample in samples {
         let line = &sample.line;
-        // Where a search is no function of its own, its instructions are not known apart.
+        // If a search is not a function of its own, its instructions are unknown.
         let Some((closest, shadow)) = line.per_closest_ray.zip(line.per_shadow_ray) else {
             continue;
         };
@@ -80,8 +80,8 @@ fn weights(target: &str, family: Family, samples: &[&Sample]) -> Weights {
     }
 }
 
-/// The relative errors of instructions, flash and RAM when each scene in turn is left out of what is learnt
-/// from: the roots of their mean squares.
+/// Returns the root-mean-square relative errors of instructions, flash and RAM in leave-one-out cross-validation by
+/// scene.
 fn errors(samples: &[&Sample]) -> [f64; 3] {
     let scenes: BTreeSet<&str> = samples.iter().map(|s| &*s.line.scene).collect();
     let mut squares = [0.0; 3];
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_that_fit_exactly_are_found() {
+    fn exact_weights_are_found() {
         let truth = [3.0, 0.0, 70.0];
         let rows = [
             [1.0, 2.0, 3.0],

@@ -1,20 +1,20 @@
-//! What to plan: a command line that has been checked.
+//! The job of `octray plan`: a checked command line.
 
 use crate::measure::board::Board;
 use serde::Serialize;
 use std::path::PathBuf;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
-/// Everything `octray plan` was asked for.
+/// Everything that `octray plan` was asked to do.
 #[derive(Clone, Debug)]
 pub struct PlanJob {
     /// The scene file.
     pub scene: PathBuf,
-    /// The board that is to render it.
+    /// The target board.
     pub board: &'static Board,
-    /// What it has to keep to.
-    pub bounds: Bounds,
-    /// The arithmetics that come into question.
+    /// The limits to respect.
+    pub limits: PlanLimits,
+    /// The arithmetics to consider.
     pub numbers: Numbers,
     /// Columns and rows; the scene's own if `None`.
     pub size: Option<(u32, u32)>,
@@ -26,24 +26,24 @@ pub struct PlanJob {
     pub emit: Option<PathBuf>,
 }
 
-/// What a plan has to keep to.
+/// The limits of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Bounds {
+pub struct PlanLimits {
     /// Bytes of flash.
     pub flash: u64,
-    /// Bytes of RAM, the stack included.
+    /// Bytes of RAM, including the stack.
     pub ram: u64,
-    /// The least distance from the picture in 64-bit floats, in dB.
+    /// The least distance from the picture in 64-bit floats (PSNR), in dB.
     pub min_psnr: f64,
 }
 
-/// The arithmetics that come into question.
+/// The arithmetics to consider.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Numbers {
-    /// Whichever takes fewer instructions.
+    /// Either, whichever needs fewer instructions.
     #[default]
     Any,
     /// 32-bit fixed point.
@@ -52,7 +52,7 @@ pub enum Numbers {
     F32,
 }
 
-/// Bytes of flash and RAM that the firmware's memory layout has for a board.
+/// Returns the bytes of flash and RAM in the firmware's memory layout of a board.
 pub fn memory(board: &Board) -> (u64, u64) {
     let flash = match board.machine {
         "virt" => 1 << 20,
@@ -66,12 +66,12 @@ pub fn memory(board: &Board) -> (u64, u64) {
 mod tests {
     use super::*;
     use crate::measure::board::BOARDS;
-    use crate::measure::workspace::Workspace;
+    use crate::measure::source_tree::SourceTree;
     use std::fs;
 
     #[test]
-    fn boards_have_the_memory_that_firmware_is_linked_for() {
-        let root = Workspace::root().unwrap();
+    fn boards_have_the_memory_of_the_firmwares_layout() {
+        let root = SourceTree::root().unwrap();
         for board in &BOARDS {
             let layout = match board.is_arm() {
                 true => "cortex-m",

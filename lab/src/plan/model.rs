@@ -1,5 +1,5 @@
-//! The model that predicts instructions, flash and memory of a frame: weights of counted events, and of
-//! what code a scene needs, for each target and family of numbers.
+//! The model that predicts instructions, flash and memory of a frame: weights of counted events, and of the code that a
+//! scene needs, for each target and family of numbers.
 //!
 //! `cargo bench -p octray --bench plan` measures frames on emulated boards and fits the weights.
 
@@ -14,7 +14,7 @@ use octray_render::error::Error;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
 
-/// Numbers that cost alike.
+/// A family of numbers with similar costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Family {
@@ -25,7 +25,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// That of a format.
+    /// Returns the family of a format.
     pub fn of(format: Format) -> Self {
         match format.family() {
             format::Family::Fixed | format::Family::Fixed64 => Self::Fixed,
@@ -33,7 +33,7 @@ impl Family {
         }
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -42,21 +42,21 @@ impl Family {
     }
 }
 
-/// Bytes on the stack that are lent to the tracer, exactly.
+/// Bytes on the stack that are lent to the tracer, exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Parts {
+pub struct LentBytes {
     /// The strip of the picture.
     pub strip: usize,
-    /// The rays that wait.
+    /// The queue of rays.
     pub rays: usize,
-    /// The nodes that wait.
+    /// The traversal stack.
     pub nodes: usize,
-    /// What blocked each light last.
+    /// The shadow cache.
     pub shadow_cache: usize,
 }
 
-impl Parts {
-    /// Of a baked plan with so many lights.
+impl LentBytes {
+    /// Returns those of a baked plan with this many lights.
     pub fn of(plan: &Plan, baked: &Baked, lights: usize) -> Self {
         Self {
             strip: plan.size.0 as usize * ROWS * 3,
@@ -66,16 +66,16 @@ impl Parts {
         }
     }
 
-    /// All of them.
+    /// Returns their sum.
     pub fn total(&self) -> usize {
         self.strip + self.rays + self.nodes + self.shadow_cache
     }
 }
 
-/// What code is made of: something always, something for each need, and a tree's walk.
+/// The parts of the code: a constant one, one per feature, and the tree's traversal.
 pub const OF_CODE: usize = 2 + features::NAMES.len();
 
-/// What of it a scene needs.
+/// Returns the parts that a scene needs.
 pub fn code(set: FeatureSet, tree: Option<BuildOptions>) -> [f64; OF_CODE] {
     let mut parts = [0.0; OF_CODE];
     parts[0] = 1.0;
@@ -90,28 +90,28 @@ pub fn code(set: FeatureSet, tree: Option<BuildOptions>) -> [f64; OF_CODE] {
     parts
 }
 
-/// What is predicted of a frame on a board.
+/// The predicted cost of a frame on a board.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Prediction {
-    /// Instructions, start-up and panel left out.
+    /// Instructions, without start-up and panel.
     pub instructions: f64,
     /// Bytes of code.
     pub code: f64,
     /// Bytes of tables, exact.
     pub tables: usize,
-    /// Bytes of functions' frames on the stack.
+    /// Bytes of stack frames.
     pub frames: f64,
     /// Bytes lent to the tracer, exact.
-    pub lent: Parts,
+    pub lent: LentBytes,
 }
 
 impl Prediction {
-    /// Bytes of flash.
+    /// Returns bytes of flash.
     pub fn flash(&self) -> u64 {
         self.code.round() as u64 + self.tables as u64
     }
 
-    /// Bytes of RAM.
+    /// Returns bytes of RAM.
     pub fn ram(&self) -> u64 {
         self.frames.round() as u64 + self.lent.total() as u64
     }
@@ -130,13 +130,13 @@ pub struct Weights {
     pub rest: [f64; OF_REST],
     /// Bytes of each part of the code.
     pub code: [f64; OF_CODE],
-    /// Bytes of functions' frames on the stack that each part of the code takes.
+    /// Bytes of stack frames of each part of the code.
     pub frames: [f64; OF_CODE],
-    /// The typical relative errors of instructions, flash and RAM, for scenes that were not learnt from.
+    /// The typical relative errors of instructions, flash and RAM, for scenes that the weights were not fitted to.
     pub errors: [f64; 3],
 }
 
-/// A line of the table of weights.
+/// A row of the table of weights.
 #[derive(Debug, Serialize, Deserialize)]
 struct Entry {
     target: String,
@@ -150,7 +150,7 @@ fn sum<const N: usize>(counts: &[f64; N], weights: &[f64; N]) -> f64 {
 }
 
 impl Weights {
-    /// Instructions of the two searches and of the rest.
+    /// Returns the instructions of the two kinds of search and of the rest.
     pub fn instructions(&self, events: &Events) -> [f64; 3] {
         let [closest, shadow] = &events.search;
         [
@@ -160,13 +160,13 @@ impl Weights {
         ]
     }
 
-    /// What a frame costs.
+    /// Predicts the cost of a frame.
     pub fn predict(
         &self,
         events: &Events,
         baked: &Baked,
         tree: Option<BuildOptions>,
-        lent: Parts,
+        lent: LentBytes,
     ) -> Prediction {
         Prediction {
             instructions: self.instructions(events).iter().sum(),
@@ -212,15 +212,15 @@ impl Weights {
     }
 }
 
-/// All weights that there are.
+/// The weights of all targets and families.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model(pub Vec<Weights>);
 
 impl Model {
-    /// The model that comes with octray.
+    /// Returns the model that comes with octray.
     ///
     /// # Errors
-    /// If its table is broken.
+    /// If its table is invalid.
     pub fn shipped() -> Result<Self, Error> {
         Self::read(&include_bytes!("weights.csv")[..])
     }
@@ -228,7 +228,7 @@ impl Model {
     /// Reads a table of weights.
     ///
     /// # Errors
-    /// If it is none.
+    /// If it is not one.
     pub fn read(table: impl Read) -> Result<Self, Error> {
         let broken = |why: String| Error::Failed(format!("the table of weights: {why}"));
         let entries: Result<Vec<Entry>, _> =
@@ -271,7 +271,7 @@ impl Model {
         table.flush().map_err(csv::Error::from)
     }
 
-    /// The weights of a target and a family.
+    /// Returns the weights of a target and a family.
     pub fn of(&self, target: &str, family: Family) -> Option<&Weights> {
         (self.0.iter()).find(|weights| (&*weights.target, weights.family) == (target, family))
     }

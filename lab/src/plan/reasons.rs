@@ -1,4 +1,4 @@
-//! The decisions of a plan: what was chosen, why, and what the next cheaper choice would bring.
+//! The decisions of a plan: the choice, its reason, and the effect of the next cheaper choice.
 
 use super::accuracy::Accuracy;
 use super::choice::{Candidate, cheapest};
@@ -9,7 +9,7 @@ use octray_prepare::PixelsPerRay;
 use octray_prepare::TreeKind;
 use octray_render::counts::thousands;
 
-/// How often rays bounce; `less` tells by how much of themselves the plan's instructions grow with other events.
+/// Decides the number of bounces; `less` returns the relative change of the plan's instructions with other events.
 pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>) -> Decision {
     Decision {
         about: "bounces",
@@ -24,7 +24,7 @@ pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>
     }
 }
 
-/// How many pixels one ray colours.
+/// Decides how many pixels one ray colours.
 pub(super) fn pixels_per_ray(
     accuracy: &Accuracy,
     less: impl Fn(&Events) -> Option<f64>,
@@ -51,7 +51,7 @@ pub(super) fn pixels_per_ray(
     }
 }
 
-/// The arithmetic.
+/// Decides the arithmetic.
 pub(super) fn numbers(
     accuracy: &Accuracy,
     candidates: &[Candidate],
@@ -96,7 +96,7 @@ pub(super) fn numbers(
     }
 }
 
-/// The tree.
+/// Decides the tree.
 pub(super) fn tree(candidates: &[Candidate], chosen: &Candidate) -> Decision {
     let name = |candidate: &Candidate| match candidate.plan.tree {
         None => "none".into(),
@@ -144,7 +144,7 @@ pub(super) fn tree(candidates: &[Candidate], chosen: &Candidate) -> Decision {
     }
 }
 
-/// Room for what waits.
+/// Decides the capacities of queue and stacks.
 pub(super) fn capacities(chosen: &Candidate) -> Decision {
     let lent = &chosen.cost.lent;
     let rays = match chosen.plan.rays {
@@ -166,7 +166,7 @@ pub(super) fn capacities(chosen: &Candidate) -> Decision {
     }
 }
 
-/// What code is linked, by what a part of it takes.
+/// Describes the linked code, with the weights of its parts.
 pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
     let has = |what| features::contains(chosen.baked.features, what);
     let names = |wanted: bool| {
@@ -180,7 +180,7 @@ pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
             names.join(", ")
         }
     };
-    // The first two are the code that there always is, and the tree's.
+    // The first two are the constant part and the tree's.
     let absent = features::NAMES
         .iter()
         .zip(&weights[2..])

@@ -1,8 +1,8 @@
-//! What was measured for the model: lines of `octray measure --csv`, and the scenes they name.
+//! The measurements that the model is fitted to: lines of `octray measure --csv`, and the scenes that they name.
 
 use super::comb::comb;
 use super::events::{Events, Probe};
-use super::model::{Family, Parts, Weights};
+use super::model::{Family, LentBytes, Weights};
 use crate::measure::board::{BOARDS, Board};
 use octray_core::accel::BuildOptions;
 use octray_prepare::bake::{BakeOptions, Baked, bake};
@@ -18,19 +18,19 @@ use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::path::Path;
 
-/// Where the random numbers of generated scenes start.
+/// The seed of generated scenes.
 pub const SEED: u64 = 7;
 
 /// A line of the record.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Line {
+pub struct RecordLine {
     /// A file of `scenes/`, or a kind and a number of objects such as `soup-60`, or `comb` and a number of teeth.
     pub scene: String,
     /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// The most bounces.
+    /// The maximum number of bounces.
     pub max_depth: u32,
     /// The board.
     pub board: String,
@@ -40,7 +40,7 @@ pub struct Line {
     pub tree: String,
     /// Instructions of the frame.
     pub instructions: f64,
-    /// Rays that look for the closest hit.
+    /// Rays that search for the closest hit.
     pub closest_rays: f64,
     /// Instructions of each of their searches.
     pub per_closest_ray: Option<f64>,
@@ -52,31 +52,31 @@ pub struct Line {
     pub flash: f64,
     /// Bytes of variables.
     pub ram: f64,
-    /// Bytes of the deepest stack.
+    /// Maximum depth of the stack in bytes.
     pub stack: f64,
 }
 
-/// A line, and what the host knows of its frame.
+/// A line, and the host's data of its frame.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// The line.
-    pub line: Line,
+    pub line: RecordLine,
     /// The board.
     pub board: &'static Board,
-    /// What kind of numbers it is.
+    /// The family of its numbers.
     pub family: Family,
-    /// What was counted.
+    /// The events of its frame.
     pub events: Events,
     /// How its tree is built, if there is one.
     pub tree: Option<BuildOptions>,
-    /// What was baked.
+    /// The baked scene.
     pub baked: Baked,
-    /// How much memory it takes besides code and frames of functions.
-    pub lent: Parts,
+    /// The memory lent to the tracer.
+    pub lent: LentBytes,
 }
 
 impl Sample {
-    /// By how much of themselves predicted instructions, flash and RAM are too large.
+    /// Returns the relative errors of predicted instructions, flash and RAM; positive if the prediction is too large.
     pub fn errors(&self, weights: &Weights) -> [f64; 3] {
         let predicted = weights.predict(&self.events, &self.baked, self.tree, self.lent);
         [
@@ -87,11 +87,11 @@ impl Sample {
     }
 }
 
-/// All lines of a record.
+/// Reads all lines of a record.
 ///
 /// # Errors
-/// If it is no record.
-pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
+/// If it is not a record.
+pub fn read(record: impl Read) -> Result<Vec<RecordLine>, Error> {
     let mut lines = Vec::new();
     for line in csv::Reader::from_reader(record).into_deserialize() {
         lines
@@ -100,11 +100,11 @@ pub fn read(record: impl Read) -> Result<Vec<Line>, Error> {
     Ok(lines)
 }
 
-/// The record with what was measured anew: of boards that were not measured the lines stay. By board, its lines in
-/// the order in which they came. The columns are those of what was measured: what older lines do not tell is empty.
+/// Writes the record with new measurements: lines of boards that were not measured stay. Lines are sorted by board,
+/// otherwise in their order. The columns are those of the new measurements; values that older lines lack are empty.
 ///
 /// # Errors
-/// If either is no record; if `out` cannot be written.
+/// If either input is not a record, or `out` cannot be written.
 pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(), Error> {
     let broken = |why: String| Error::Failed(format!("the record of measurements: {why}"));
     let wrong = |why: csv::Error| broken(why.to_string());
@@ -112,7 +112,7 @@ pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(),
     let mut measured = csv::Reader::from_reader(measured);
     let columns = measured.headers().map_err(wrong)?.clone();
     let board = (columns.iter().position(|name| name == "board"))
-        .ok_or_else(|| broken("no column tells the board".into()))?;
+        .ok_or_else(|| broken("there is no column for the board".into()))?;
     let known = old.headers().map_err(wrong)?.clone();
     let places: Vec<_> = (columns.iter())
         .map(|name| known.iter().position(|known| known == name))
@@ -139,7 +139,7 @@ pub fn renew(old: impl Read, measured: impl Read, out: impl Write) -> Result<(),
     table.flush().map_err(|why| broken(why.to_string()))
 }
 
-/// The scene that a record names.
+/// Returns the scene that a record names.
 ///
 /// # Errors
 /// If there is none.
@@ -166,13 +166,13 @@ pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
     }
 }
 
-impl Line {
+impl RecordLine {
     fn board(&self) -> Result<&'static Board, Error> {
         let known = BOARDS.iter().find(|board| board.name == self.board);
         known.ok_or_else(|| Error::Failed(format!("the record of measurements: {}", self.board)))
     }
 
-    /// The plan that this measures.
+    /// Returns the plan that was measured.
     ///
     /// # Errors
     /// If there is no such format or tree.
@@ -211,7 +211,7 @@ impl Line {
         Ok(plan)
     }
 
-    /// What the host knows of it.
+    /// Adds the host's data.
     ///
     /// # Errors
     /// If scene, board or format are unknown; [`Error::Interrupted`].
@@ -228,7 +228,7 @@ impl Line {
             board,
             events: probe.events,
             tree: plan.tree,
-            lent: Parts::of(&plan, &baked, scene.lights.len()),
+            lent: LentBytes::of(&plan, &baked, scene.lights.len()),
             baked,
             line: self,
         })
@@ -240,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn boards_that_are_not_measured_keep_their_lines() {
+    fn boards_without_new_measurements_keep_their_lines() {
         let renewed = |old: &str, measured: &str| {
             let mut out = Vec::new();
             renew(old.as_bytes(), measured.as_bytes(), &mut out)
@@ -252,7 +252,7 @@ mod tests {
             renewed(old, measured).unwrap(),
             "scene,board,flash\na,m0,1\nb,m0,2\nb,m3,6\na,m3,7\na,m4,5\n"
         );
-        // A column that is new, and one that is gone.
+        // A new column, and one that was removed.
         assert_eq!(
             renewed("board,tree,scene\nm0,none,a\n", measured).unwrap(),
             "scene,board,flash\na,m0,\nb,m3,6\na,m3,7\n"

@@ -1,25 +1,25 @@
-//! What would fit, where a plan does not.
+//! Finds options with which a plan that does not fit would fit.
 
 use super::decision::Cost;
-use super::job::{Bounds, PlanJob};
-use super::report::Report;
+use super::job::{PlanJob, PlanLimits};
+use super::report::PlanReport;
 use octray_render::error::Error;
 
-/// Options with which the scene of a plan that takes too much fits, each text enough alone: as much memory as it
-/// takes; or, if it is RAM that fails, a picture so narrow that the strip leaves room. The second is planned to be
-/// sure, by `plan`. None if the plan fits, or if nothing is accurate enough.
+/// Returns options with which a plan that exceeds its limits fits; each text alone is sufficient. They are more memory,
+/// or, if RAM fails, a picture so narrow that the strip fits; `plan` confirms the second. Empty if the plan fits, or if
+/// nothing is accurate enough.
 ///
 /// # Errors
 /// Those of `plan`.
 pub(super) fn options(
     job: &PlanJob,
-    report: &Report,
-    plan: impl FnOnce(&PlanJob) -> Result<Report, Error>,
+    report: &PlanReport,
+    plan: impl FnOnce(&PlanJob) -> Result<PlanReport, Error>,
 ) -> Result<Vec<String>, Error> {
     let (Some(cost), Some(planned)) = (&report.cost, &report.plan) else {
         return Ok(Vec::new());
     };
-    let Bounds { flash, ram, .. } = job.bounds;
+    let PlanLimits { flash, ram, .. } = job.limits;
     let more_flash = (cost.flash > flash).then(|| format!("--flash {}", cost.flash));
     let Some(more_ram) = (cost.ram > ram).then(|| format!("--ram {}", cost.ram)) else {
         return Ok(more_flash.into_iter().collect());
@@ -32,9 +32,9 @@ pub(super) fn options(
     if let Some(size) = narrower(planned.size, cost, ram) {
         let smaller = PlanJob {
             size: Some(size),
-            bounds: Bounds {
+            limits: PlanLimits {
                 flash: flash.max(cost.flash),
-                ..job.bounds
+                ..job.limits
             },
             ..job.clone()
         };
@@ -45,7 +45,7 @@ pub(super) fn options(
     Ok(options)
 }
 
-/// The largest picture of these proportions whose strip is as much smaller as RAM is short.
+/// Returns the largest picture of these proportions whose strip is smaller by the missing RAM.
 fn narrower((width, height): (u32, u32), cost: &Cost, ram: u64) -> Option<(u32, u32)> {
     let strip = cost.detail.lent.strip as u64;
     let room = (ram + strip).checked_sub(cost.ram)?;

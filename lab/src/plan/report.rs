@@ -1,10 +1,10 @@
-//! A plan with its reasons, to read and as JSON.
+//! A plan with its reasons, as text and as JSON.
 
 use super::accuracy::{Accuracy, Tried};
 use super::choice::{Candidate, Chooser};
 use super::decision::{Cost, Decision, decibels};
 use super::events::Events;
-use super::job::{Bounds, PlanJob};
+use super::job::{PlanJob, PlanLimits};
 use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
 use super::verify::Verification;
 use octray_prepare::plan::Plan;
@@ -12,36 +12,36 @@ use octray_render::counts::thousands;
 use octray_render::error::Error;
 use serde::Serialize;
 
-/// What there is to tell.
+/// The contents of the output.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct PlanReport {
     /// The scene file as it was named.
     pub scene: String,
     /// The board.
     pub board: &'static str,
-    /// What had to be kept to.
-    pub bounds: Bounds,
-    /// What was decided.
+    /// The limits.
+    pub bounds: PlanLimits,
+    /// The decisions.
     pub decisions: Vec<Decision>,
-    /// Every arithmetic that was tried.
+    /// Every tried arithmetic.
     pub tried: Vec<Tried>,
-    /// What it will cost; none if nothing is accurate enough.
+    /// The predicted cost; `None` if nothing is accurate enough.
     pub cost: Option<Cost>,
-    /// What was measured, if it was.
+    /// The measurement, if there was one.
     pub trial: Option<Verification>,
-    /// Which bounds fail, by how much, and with which options it fits.
+    /// Which limits fail, by how much, and with which options the plan fits.
     pub failures: Vec<String>,
-    /// The plan itself.
+    /// The plan.
     #[serde(skip)]
     pub plan: Option<Plan>,
 }
 
-impl Report {
+impl PlanReport {
     fn empty(job: &PlanJob, accuracy: &Accuracy) -> Self {
         Self {
             scene: job.scene.display().to_string(),
             board: job.board.name,
-            bounds: job.bounds,
+            bounds: job.limits,
             decisions: Vec::new(),
             tried: accuracy.tried.clone(),
             cost: None,
@@ -51,9 +51,9 @@ impl Report {
         }
     }
 
-    /// That nothing is accurate enough.
+    /// Returns a report that nothing is accurate enough.
     pub fn inaccurate(job: &PlanJob, accuracy: &Accuracy) -> Self {
-        let bound = job.bounds.min_psnr;
+        let bound = job.limits.min_psnr;
         let why = match accuracy.closest() {
             Some(Tried {
                 too_fine: Some(why),
@@ -77,7 +77,7 @@ impl Report {
         }
     }
 
-    /// A plan, chosen among candidates.
+    /// Returns the report of a plan that was chosen among candidates.
     ///
     /// # Errors
     /// [`Error::Failed`] if the model does not know the board.
@@ -111,22 +111,22 @@ impl Report {
                 detail: chosen.cost,
                 errors: weights.errors,
             }),
-            failures: failures(chosen, &job.bounds),
+            failures: failures(chosen, &job.limits),
             plan: Some(chosen.plan.clone()),
             ..Self::empty(job, accuracy)
         })
     }
 
-    /// The plan as `octray bake --plan` takes it.
+    /// Returns the plan as `octray bake --plan` reads it.
     pub fn emitted(&self) -> Option<String> {
         let plan = self.plan.as_ref()?;
         let (scene, board) = (&self.scene, self.board);
         Some(format!("# octray plan {scene} --target {board}\n{plan}"))
     }
 
-    /// All of it to read.
+    /// Formats the whole report as text.
     pub fn text(&self) -> String {
-        let Bounds {
+        let PlanLimits {
             flash,
             ram,
             min_psnr,
@@ -194,21 +194,21 @@ impl Report {
     }
 }
 
-/// A name and what there is to say of it.
+/// Formats a name and its text.
 fn line(name: &str, what: &str) -> String {
     format!("{name:<16}{what}\n")
 }
 
-/// Which bounds a plan fails, and by how much.
-fn failures(chosen: &Candidate, bounds: &Bounds) -> Vec<String> {
+/// Returns which limits a plan exceeds, and by how much.
+fn failures(chosen: &Candidate, limits: &PlanLimits) -> Vec<String> {
     let needs = [
-        ("flash", chosen.cost.flash(), bounds.flash),
-        ("RAM", chosen.cost.ram(), bounds.ram),
+        ("flash", chosen.cost.flash(), limits.flash),
+        ("RAM", chosen.cost.ram(), limits.ram),
     ];
     let failed = needs.into_iter().filter(|(_, needs, has)| needs > has);
-    let told = failed.map(|(what, needs, has)| {
+    let sentences = failed.map(|(what, needs, has)| {
         let [needed, more, has] = [needs, needs - has, has].map(thousands);
         format!("{what}: the nearest plan takes {needed} bytes, {more} more than {has}")
     });
-    told.collect()
+    sentences.collect()
 }

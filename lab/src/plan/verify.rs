@@ -1,4 +1,4 @@
-//! A plan put to the test: the firmware built from it, and run on the emulated board.
+//! Verifies a plan: builds the firmware from it, and runs it on the emulated board.
 
 use super::decision::Cost;
 use super::events::Probe;
@@ -6,7 +6,7 @@ use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
 use crate::measure::job::Goal;
 use crate::measure::memory::Memory;
-use crate::measure::workspace::Workspace;
+use crate::measure::source_tree::SourceTree;
 use crate::measure::{self, frames};
 use octray_prepare::plan::Plan;
 use octray_render::error::Error;
@@ -17,27 +17,27 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// How long a frame may take.
+/// The timeout of a frame.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// What was measured, and by how much of itself the prediction is too large.
+/// The measurement, and the relative errors of the prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Verification {
-    /// Instructions, start-up and panel left out.
+    /// Instructions, without start-up and panel.
     pub instructions: u64,
     /// Bytes of flash.
     pub flash: u64,
-    /// Bytes of variables and of the deepest stack.
+    /// Bytes of variables and of the maximum stack depth.
     pub ram: u64,
-    /// The errors of predicted instructions, flash and RAM.
+    /// The relative errors of predicted instructions, flash and RAM; positive if the prediction is too large.
     pub errors: [f64; 3],
 }
 
-/// Builds the firmware for a plan and runs it; its picture must be the host's.
+/// Builds the firmware for a plan and runs it; its picture must equal the host's.
 ///
 /// # Errors
-/// [`Error::Failed`] if target or emulator are missing, or the firmware cannot be built, fails, or makes
-/// another picture; [`Error::Interrupted`].
+/// [`Error::Failed`] if target or emulator are missing, or the firmware cannot be built, fails, or renders another
+/// picture; [`Error::Interrupted`].
 pub fn run(
     path: &Path,
     scene: &Scene,
@@ -48,10 +48,10 @@ pub fn run(
 ) -> Result<Verification, Error> {
     let failed = |why: String| Error::Failed(format!("the firmware on {board}: {why}"));
     let expected = Probe::render(scene, plan, interrupt)?.picture.hash();
-    let root = Workspace::root()?;
+    let root = SourceTree::root()?;
     board::require(&[board], &root)?;
-    let workspace = Workspace::open(root)?;
-    let plugin = measure::plugin(&workspace, interrupt)?;
+    let sources = SourceTree::open(root)?;
+    let plugin = measure::plugin(&sources, interrupt)?;
     let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
     let folder = tempfile::tempdir()
         .map_err(|cause| Error::Failed(format!("cannot make a temporary folder: {cause}")))?;
@@ -60,7 +60,7 @@ pub fn run(
     let (scene, file) = (path.to_string_lossy(), file.to_string_lossy());
     let firmware = ("octray-firmware", None);
     let variables = [("OCTRAY_SCENE", &*scene), ("OCTRAY_PLAN", &*file)];
-    let program = workspace.firmware(firmware, board, Goal::Speed, &variables, interrupt)?;
+    let program = sources.firmware(firmware, board, Goal::Speed, &variables, interrupt)?;
     let program = program.map_err(failed)?;
     let emulator = Emulator {
         plugin: &plugin,
@@ -68,14 +68,14 @@ pub fn run(
         watch: frames::SEARCH,
     };
     let run = emulator.run(board, &program, interrupt)?.map_err(failed)?;
-    let told = |name| run.told.get(name).cloned().unwrap_or_default();
-    let (hash, expected) = (told("hash"), format!("{expected:016x}"));
+    let value = |name| run.values.get(name).cloned().unwrap_or_default();
+    let (hash, expected) = (value("hash"), format!("{expected:016x}"));
     if hash != expected {
         return Err(failed(format!(
             "its picture's hash is {hash}, the host's {expected}"
         )));
     }
-    let stack: u64 = told("stack")
+    let stack: u64 = value("stack")
         .parse()
         .map_err(|_| failed("its stack is not known".into()))?;
     let bytes = fs::read(&program).map_err(|cause| Error::read(&program, cause))?;

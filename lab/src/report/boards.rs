@@ -1,18 +1,18 @@
-//! Small targets, from the newest record of `octray measure` that comes with octray: table III, and sizes.
+//! Microcontrollers, from the newest record of `octray measure` that comes with octray: table III, and sizes.
 
 use super::page::{self, Section, table};
 use crate::tables::emulated;
-use crate::tables::record::{self, Row};
+use crate::tables::record::{self, RecordRow};
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
 
-/// Table III today, and what programs need.
+/// Returns table III with today's boards, and the needs of programs.
 ///
 /// # Errors
-/// [`Error::Failed`] if the record is none.
+/// [`Error::Failed`] if the record is invalid.
 pub(super) fn sections() -> Result<Vec<Section>, Error> {
     let rows = record::read(record::NEWEST)
         .map_err(|cause| Error::Failed(format!("{}: {cause}", record::NAME)))?;
@@ -34,7 +34,7 @@ pub(super) fn sections() -> Result<Vec<Section>, Error> {
     };
     let sizes = Section {
         id: "sizes".into(),
-        title: "What programs need on small targets".into(),
+        title: "What programs need on microcontrollers".into(),
         body: html! {
             p {
                 "Instructions per pixel; bytes of flash, of RAM without the stack, and of the stack; and decibels "
@@ -47,7 +47,7 @@ pub(super) fn sections() -> Result<Vec<Section>, Error> {
     Ok(vec![units, sizes])
 }
 
-/// The columns that hold words come first.
+/// The number of columns with words, which come first.
 const WORDS: usize = 3;
 const HEAD: [&str; 8] = [
     "scene",
@@ -60,7 +60,7 @@ const HEAD: [&str; 8] = [
     "PSNR",
 ];
 
-fn cells(row: &Row) -> Vec<String> {
+fn cells(row: &RecordRow) -> Vec<String> {
     let whole = |n: Option<u64>| n.map_or("–".into(), thousands);
     let (cost, accuracy) = match row.per_pixel {
         None => (row.outcome.clone(), "–".into()),
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_is_not_told_to_be_equal() {
+    fn a_failure_is_not_reported_as_equal() {
         let text = "scene,board,arith,format,outcome,per_pixel,flash,ram,stack,psnr,commit,toolchain,emulator\n\
                     a,m0,f32,,stack overflow,,,,,,c,rustc,QEMU\na,m3,f32,f32,ok,10.4,1000,20,30,,c,rustc,QEMU\n";
         let rows: Vec<_> = record::read(text).unwrap().iter().map(cells).collect();

@@ -1,4 +1,4 @@
-//! Speed against accuracy: the charts, and what they choose.
+//! Accuracy against cost: the charts, and their choices.
 
 use super::page::{self, Section};
 use crate::canvas;
@@ -6,18 +6,18 @@ use crate::chart::cost::Meter;
 use crate::chart::figure::Chart;
 use crate::chart::point::Panel;
 use crate::chart::{self, ChartJob};
-use crate::measure::frames::Named;
+use crate::measure::frames::NamedScene;
 use maud::{Markup, html};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use std::path::{Path, PathBuf};
 
-/// The section. Where costs cannot be counted it says why.
+/// Returns the section. If costs cannot be counted, it states why.
 ///
 /// # Errors
-/// When a chart cannot be drawn, or the work is interrupted.
+/// If a chart cannot be drawn, or the work is interrupted.
 pub(super) fn section(
-    scenes: Vec<(PathBuf, Named)>,
+    scenes: Vec<(PathBuf, NamedScene)>,
     job: &ChartJob,
     interrupt: &Interrupt,
 ) -> Result<Section, Error> {
@@ -45,17 +45,17 @@ pub(super) fn section(
         title: "Speed against accuracy".into(),
         body: html! {
             p {
-                "Up is more accurate, right is cheaper; the line joins the settings that no other one beats in both. "
-                "Under each chart stand its choices, each with its command, and the command that draws it again."
+                "Up is more accurate, right is cheaper; the line joins the settings that no other beats in both. "
+                "Below each chart are its choices, each with its command, and the command that draws the chart."
             }
             @for part in &parts { (part) }
         },
-        // One for each chart: those of many scenes at once would be more than a chart may have.
+        // One command per chart: a chart of many scenes at once would be too large.
         commands: Vec::new(),
     })
 }
 
-/// A chart, what it chooses, and what draws it.
+/// Returns a chart, its choices, and its command.
 fn of_panel(panel: &Panel, job: &ChartJob) -> Result<Markup, Error> {
     let says = format!("{}: {}", panel.scene, panel.kind.words());
     let svg = canvas::svg(&Chart::of(std::slice::from_ref(panel)))?;
@@ -79,7 +79,7 @@ fn of_panel(panel: &Panel, job: &ChartJob) -> Result<Markup, Error> {
     })
 }
 
-/// A command, so that it tells the cost too.
+/// Extends a command so that it prints the cost too.
 fn counted(panel: &Panel, command: String) -> String {
     match panel.counting() {
         Some(counting) => format!("{counting} {command}"),
@@ -87,7 +87,7 @@ fn counted(panel: &Panel, command: String) -> String {
     }
 }
 
-/// What draws a chart.
+/// Returns the command that draws a chart.
 fn command(panel: &Panel, job: &ChartJob) -> String {
     let list = |names: Vec<&str>| names.join(",");
     let scene = page::quoted(&panel.path);

@@ -1,4 +1,4 @@
-//! Where methods fail: the map of each, and the limits.
+//! Where methods fail: a map of each, and the limits.
 
 use super::ReportJob;
 use super::page::{self, Section};
@@ -15,15 +15,15 @@ use octray_stability::number::ARITHMETICS;
 use octray_stability::survey::{self, Outcome, survey};
 use octray_stability::sweep::polygon::Polygon;
 
-/// The arithmetics whose limits stand in the table.
-const TOLD: [&str; 3] = ["f32", "i8f24", "i16f16"];
-/// What the picture of the queries of polygons shows.
-const QUERIES: &str = "every point around a star, as each form decides it";
+/// The arithmetics of the table of limits.
+const LIMITS_OF: [&str; 3] = ["f32", "i8f24", "i16f16"];
+/// The description of the picture of queries of polygons.
+const QUERIES: &str = "every point around a star, with the decision of each form";
 
-/// The section: the maps, and the table of limits.
+/// Returns the section: the maps, and the table of limits.
 ///
 /// # Errors
-/// When a map cannot be drawn, or the work is interrupted.
+/// If a map cannot be drawn, or the work is interrupted.
 pub(super) fn section(job: &ReportJob, interrupt: &Interrupt) -> Result<Section, Error> {
     let progress = Bar::new("finding limits");
     progress.start(survey::steps(&job.methods));
@@ -35,16 +35,16 @@ pub(super) fn section(job: &ReportJob, interrupt: &Interrupt) -> Result<Section,
     let maps = (survey.outcomes.iter())
         .map(of_method)
         .collect::<Result<Vec<_>, _>>()?;
-    let numbers = TOLD.map(|name| ARITHMETICS.iter().position(|other| *other == name));
+    let numbers = LIMITS_OF.map(|name| ARITHMETICS.iter().position(|other| *other == name));
     let limits = overview::of(&survey, &numbers.into_iter().flatten().collect::<Vec<_>>());
     Ok(Section {
         id: "limits".into(),
         title: "Where methods fail".into(),
         body: html! {
             p {
-                "Each form of a method in every arithmetic, from where it is easy to where it fails, against truth of "
-                "512 bits. A dot holds, a symbol on a faint ground degrades, one on a strong ground breaks; the symbol "
-                "says why. A bar ends what is admitted: what octray renders without telling that the arithmetic is too "
+                "Each form of a method in every arithmetic, from easy values to those where it fails, against references of "
+                "512 bits. A dot means holds, a symbol on a pale ground degrades, one on a dark ground breaks; the symbol "
+                "shows why. A bar ends the admitted values: those that octray renders without reporting that the arithmetic is too "
                 "coarse."
             }
             @for map in &maps { (map) }
@@ -53,16 +53,16 @@ pub(super) fn section(job: &ReportJob, interrupt: &Interrupt) -> Result<Section,
         },
         commands: vec![
             "octray stability -o maps".into(),
-            format!("octray stability --limits {}", TOLD.join(",")),
+            format!("octray stability --limits {}", LIMITS_OF.join(",")),
         ],
     })
 }
 
-/// The map of a method under its bounds; of polygons also every query around a star.
+/// Returns the map of a method under its limits; for polygons also every query around a star.
 fn of_method(outcome: &Outcome) -> Result<Markup, Error> {
     let about = &outcome.about;
     let says = format!("{}: {}", about.title, about.axis);
-    let (holds, degrades) = table::bounds(about);
+    let (holds, degrades) = table::limits(about);
     let queries = match about.name == Polygon::ABOUT.name {
         true => Some(page::image(&canvas::picture(&Queries::new())?, QUERIES)?),
         false => None,

@@ -1,4 +1,4 @@
-//! The page: HTML that needs neither network nor script, in the reader's own light or dark.
+//! The page: HTML that needs neither network nor scripts, with the reader's light or dark colours.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -6,23 +6,23 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use octray_render::error::Error;
 use octray_render::picture::Picture;
 
-/// How it looks.
+/// The style sheet.
 const STYLE: &str = include_str!("style.css");
 
 /// A part of the page.
 #[derive(Clone, Debug)]
 pub(super) struct Section {
-    /// Its name in addresses within the page.
+    /// Its anchor within the page.
     pub(super) id: String,
     /// Its heading.
     pub(super) title: String,
     /// What it shows.
     pub(super) body: Markup,
-    /// The commands that print it again.
+    /// The commands that reproduce it.
     pub(super) commands: Vec<String>,
 }
 
-/// The whole page.
+/// Returns the whole page.
 pub(super) fn of(sections: &[Section]) -> Markup {
     html! {
         (DOCTYPE)
@@ -38,9 +38,9 @@ pub(super) fn of(sections: &[Section]) -> Markup {
                 header {
                     h1 { "What speed costs in accuracy" }
                     p {
-                        "What rendering takes in every arithmetic, where each method fails, and what small targets "
-                        "need. Made by octray " (env!("CARGO_PKG_VERSION")) "; under each part stands the command "
-                        "that prints it again."
+                        "The cost of rendering in every arithmetic, where each method fails, and what microcontrollers "
+                        "need. Made by octray " (env!("CARGO_PKG_VERSION")) "; each part ends with the command "
+                        "that reproduces it."
                     }
                     nav {
                         @for section in sections {
@@ -62,7 +62,7 @@ pub(super) fn of(sections: &[Section]) -> Markup {
     }
 }
 
-/// Commands as they are typed.
+/// Returns commands as they are typed.
 pub(super) fn commands(commands: &[String]) -> Markup {
     html! {
         @if !commands.is_empty() {
@@ -71,7 +71,7 @@ pub(super) fn commands(commands: &[String]) -> Markup {
     }
 }
 
-/// A picture within the page, as PNG.
+/// Returns a picture within the page, as PNG.
 ///
 /// # Errors
 /// If it cannot be encoded.
@@ -84,14 +84,14 @@ pub(super) fn image(picture: &Picture, says: &str) -> Result<Markup, Error> {
     })
 }
 
-/// A chart that has been drawn as SVG.
+/// Returns a chart that was drawn as SVG.
 pub(super) fn chart(svg: &str, says: &str) -> Markup {
     html! {
         figure.chart role="img" aria-label=(says) { (PreEscaped(svg)) }
     }
 }
 
-/// A table whose first columns hold words, to the left, and the others numbers, to the right.
+/// Returns a table whose first columns hold words, aligned left, and the others numbers, aligned right.
 pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup {
     let class = |column: usize| (column >= words).then_some("number");
     html! {
@@ -108,7 +108,7 @@ pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup
     }
 }
 
-/// A path as a shell reads it.
+/// Quotes a path for a shell.
 pub(super) fn quoted(path: &std::path::Path) -> String {
     crate::chart::point::quoted(&path.to_string_lossy())
 }
@@ -128,14 +128,14 @@ mod tests {
     }
 
     #[test]
-    fn names_are_text_not_markup() {
+    fn names_are_text_and_not_markup() {
         let page = page("<b>");
         assert!(page.contains("<h2>&lt;b&gt;</h2>"), "{page}");
         assert!(!page.contains("<b>"));
     }
 
     #[test]
-    fn commands_stand_below_and_sections_are_found() {
+    fn commands_stand_below_and_sections_have_anchors() {
         let page = page("a");
         assert!(page.contains("octray x\noctray y"), "{page}");
         assert!(page.contains("<a href=\"#a\">a</a>"), "{page}");

@@ -1,8 +1,8 @@
-//! A scene in every arithmetic, side by side, each beside where it differs from the picture in 64-bit floats.
+//! A scene in every arithmetic, each beside a map of the differences from the picture in 64-bit floats.
 
 use super::ReportJob;
 use super::page::{self, Section, quoted};
-use crate::measure::frames::Named;
+use crate::measure::frames::NamedScene;
 use crate::measure::reference;
 use maud::{Markup, html};
 use octray_prepare::{Arith, RenderSettings};
@@ -15,13 +15,13 @@ use octray_render::progress::Progress;
 use octray_render::render::Rendering;
 use std::path::Path;
 
-/// The section of a scene, the `index`th.
+/// Returns the section of a scene, the `index`th.
 ///
 /// # Errors
-/// When interrupted, or if the scene cannot be rendered even in 64-bit floats.
+/// On an interrupt, or if the scene cannot be rendered even in 64-bit floats.
 pub(super) fn section(
     index: usize,
-    scene: &Named,
+    scene: &NamedScene,
     path: &Path,
     job: &ReportJob,
     progress: &dyn Progress,
@@ -54,8 +54,8 @@ pub(super) fn section(
         title: format!("{name} in every arithmetic"),
         body: html! {
             p {
-                "Left the picture, right where it differs from the one in 64-bit floats: dim grey where it is equal, "
-                "from violet (1 level) over red to yellow (255 levels) the larger the difference is. "
+                "The picture on the left, its differences from 64-bit floats on the right: dim grey for equal pixels, "
+                "from violet (1 level) over red to yellow (255 levels) for larger differences. "
                 (width) " × " (height) " pixels."
             }
             div.pictures { @for figure in &figures { (figure) } }
@@ -64,7 +64,7 @@ pub(super) fn section(
     })
 }
 
-/// What renders a scene in these arithmetics, and draws where they differ: loops of a shell.
+/// Returns shell loops that render a scene in these arithmetics and draw the differences.
 fn commands(name: &str, path: &Path, (width, height): (u32, u32), shown: &[&str]) -> Vec<String> {
     let (file, name) = (quoted(path), quoted(Path::new(name)));
     let others: Vec<&str> = (shown.iter().copied())
@@ -90,7 +90,7 @@ fn commands(name: &str, path: &Path, (width, height): (u32, u32), shown: &[&str]
     commands
 }
 
-/// The picture, its map, and how far off it is.
+/// Returns the picture, its map, and its distance.
 fn figure(arith: Arith, traced: &Rendering, exact: &Rendering) -> Result<Markup, Error> {
     let difference = Difference::between(&exact.picture, &traced.picture)?;
     let share = 100.0 * difference.beyond_1 as f64 / difference.pixels.max(1) as f64;

@@ -1,33 +1,33 @@
-//! All that was measured, as JSON and as CSV.
+//! Writes all measurements as JSON and as CSV.
 
 use octray_stability::method::About;
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{Cause, ErrorStats, State};
 use octray_stability::survey::{Outcome, Survey};
-use octray_stability::tally::{Cause, State, Tally};
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// One JSON object: each method with what it is about and its cells.
+/// Writes one JSON object: each method with its description and its cells.
 pub(super) fn json(survey: &Survey, out: &mut dyn Write) -> io::Result<()> {
     #[derive(Serialize)]
-    struct Told<'a> {
+    struct MethodData<'a> {
         #[serde(flatten)]
         about: &'a About,
-        cells: Vec<Row>,
+        cells: Vec<CellRow>,
     }
-    let told: Vec<Told<'_>> = survey
+    let methods: Vec<MethodData<'_>> = survey
         .outcomes
         .iter()
-        .map(|outcome| Told {
+        .map(|outcome| MethodData {
             about: &outcome.about,
             cells: rows(outcome).collect(),
         })
         .collect();
-    serde_json::to_writer(&mut *out, &told)?;
+    serde_json::to_writer(&mut *out, &methods)?;
     writeln!(out)
 }
 
-/// A line for each cell.
+/// Writes one line per cell.
 pub(super) fn csv(survey: &Survey, out: &mut dyn Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     for outcome in &survey.outcomes {
@@ -38,9 +38,9 @@ pub(super) fn csv(survey: &Survey, out: &mut dyn Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// One cell, in words.
+/// One cell as text and numbers.
 #[derive(Serialize)]
-struct Row {
+struct CellRow {
     method: &'static str,
     form: &'static str,
     arithmetic: &'static str,
@@ -58,7 +58,7 @@ struct Row {
     angle: f64,
 }
 
-/// A value swept; `inf` as text where it is infinite, for which JSON has no number.
+/// Serialises a swept value; infinity as text `inf`, because JSON has no number for it.
 fn swept<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     match value.is_finite() {
         true => serializer.serialize_f64(*value),
@@ -66,13 +66,13 @@ fn swept<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     }
 }
 
-fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {
+fn rows(outcome: &Outcome) -> impl Iterator<Item = CellRow> + '_ {
     let about = &outcome.about;
     let lines = (0..about.forms.len()).flat_map(|f| (0..ARITHMETICS.len()).map(move |a| (f, a)));
     lines.flat_map(move |(f, a)| {
         let cells = about.values.iter().zip(outcome.row(f, a));
         cells.map(move |(&value, cell)| {
-            let Tally {
+            let ErrorStats {
                 cases,
                 false_hits,
                 false_misses,
@@ -80,8 +80,8 @@ fn rows(outcome: &Outcome) -> impl Iterator<Item = Row> + '_ {
                 saturations,
                 error,
                 angle,
-            } = cell.tally;
-            Row {
+            } = cell.errors;
+            CellRow {
                 method: about.name,
                 form: about.forms[f].name,
                 arithmetic: ARITHMETICS[a],

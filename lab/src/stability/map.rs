@@ -6,8 +6,8 @@
 use super::table::number;
 use crate::canvas::{Area, Drawn, Figure, write};
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{Cause, State};
 use octray_stability::survey::{Cell, Outcome};
-use octray_stability::tally::{Cause, State};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
@@ -180,7 +180,7 @@ fn bar(x: i32, y: i32) -> Rectangle<(i32, i32)> {
 fn paint_legend<B: DrawingBackend>(area: &Area<'_, B>, (left, y): (i32, i32)) -> Drawn<B> {
     let mut x = left;
     let sample = |state, cause| Cell {
-        tally: Default::default(),
+        errors: Default::default(),
         state,
         cause,
         admitted: false,

@@ -3,11 +3,11 @@
 use super::table::{admitted, limit};
 use comfy_table::{CellAlignment, Table, presets};
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::State;
 use octray_stability::survey::Survey;
-use octray_stability::tally::State;
 
-/// A line for each method and form: to which value it holds, and beyond which it breaks, in some
-/// arithmetics by their numbers; for what octray ships also to which value it is admitted.
+/// Formats one line per method and form: the value to which it holds, and the value beyond which it breaks, in some
+/// arithmetics by their numbers; for octray's own form also the value to which it is admitted.
 pub(crate) fn of(survey: &Survey, arithmetics: &[usize]) -> String {
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN);

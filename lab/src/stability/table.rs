@@ -1,22 +1,22 @@
-//! Limits, to read.
+//! The limits of a method as a table.
 
 use comfy_table::{CellAlignment, Table, presets};
 use octray_stability::method::About;
 use octray_stability::number::ARITHMETICS;
+use octray_stability::state::{State, StateLimit};
 use octray_stability::survey::Outcome;
-use octray_stability::tally::{Bound, State};
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-/// A method's title, its forms and bounds, and for each arithmetic the values up to which it is
-/// admitted, each form holds, and does not break.
+/// Formats a method's title, its forms and limits, and for each arithmetic the values up to which it is admitted, each
+/// form holds, and does not break.
 pub(super) fn of(outcome: &Outcome) -> String {
     let about = &outcome.about;
     let mut text = format!("{} ({}): {}\n", about.title, about.name, about.axis);
     for form in about.forms {
         let _ = writeln!(text, "  {:<9} {}", form.name, form.label);
     }
-    let (holds, degrades) = bounds(about);
+    let (holds, degrades) = limits(about);
     let _ = writeln!(
         text,
         "  {:<9} {holds}\n  {:<9} {degrades}",
@@ -44,41 +44,41 @@ pub(super) fn of(outcome: &Outcome) -> String {
     text + &table.trim_fmt() + "\n"
 }
 
-/// What holds and what degrades, in words.
-pub(crate) fn bounds(about: &About) -> (String, String) {
-    let bounds = &about.bounds;
+/// Describes what holds and what degrades.
+pub(crate) fn limits(about: &About) -> (String, String) {
+    let limits = &about.limits;
     let percent = |x: f64| format!("{} % wrong decisions", x * 100.0);
     let side = |x: f64| format!("{} % on the wrong side", x * 100.0);
     let error = |x: f64| format!("an error of {x} {}", about.unit);
     let angle = |x: f64| format!("an angle of {x} rad");
-    let told = |pick: fn(&Bound) -> f64, saturations| {
+    let description = |pick: fn(&StateLimit) -> f64, saturations| {
         let each = [
-            bounds.wrong.map(|b| percent(pick(&b))),
-            bounds.side.map(|b| side(pick(&b))),
-            bounds.error.map(|b| error(pick(&b))),
-            bounds.angle.map(|b| angle(pick(&b))),
+            limits.wrong.map(|b| percent(pick(&b))),
+            limits.side.map(|b| side(pick(&b))),
+            limits.error.map(|b| error(pick(&b))),
+            limits.angle.map(|b| angle(pick(&b))),
         ];
         let each: Vec<String> = each.into_iter().flatten().collect();
         format!("at most {}, {saturations}", each.join(", "))
     };
     (
-        told(|b| b.holds, "no saturation"),
-        told(|b| b.degrades, "any saturations"),
+        description(|b| b.holds, "no saturation"),
+        description(|b| b.degrades, "any saturations"),
     )
 }
 
-/// The values around the gentlest one where the state is no worse.
+/// Formats the range of values around the easiest one in which no state is worse.
 pub(super) fn limit(outcome: &Outcome, form: usize, arithmetic: usize, state: State) -> String {
-    told(&outcome.about, outcome.limits(form, arithmetic, state))
+    range_text(&outcome.about, outcome.limits(form, arithmetic, state))
 }
 
-/// The values around the gentlest one whose scenes the arithmetic admits.
+/// Formats the range of values around the easiest one whose scenes the arithmetic admits.
 pub(super) fn admitted(outcome: &Outcome, arithmetic: usize) -> String {
-    told(&outcome.about, outcome.admitted(arithmetic))
+    range_text(&outcome.about, outcome.admitted(arithmetic))
 }
 
-/// A dash for no value. An end of the sweep is marked: who knows what lies beyond.
-fn told(about: &About, range: Option<RangeInclusive<f64>>) -> String {
+/// Formats a range; a dash if there is none. The ends of the sweep are marked, because the limit may be beyond them.
+fn range_text(about: &About, range: Option<RangeInclusive<f64>>) -> String {
     let Some(range) = range else {
         return "-".into();
     };
@@ -98,7 +98,7 @@ fn told(about: &About, range: Option<RangeInclusive<f64>>) -> String {
     }
 }
 
-/// A value as short as can be.
+/// Formats a value as short as possible.
 pub(super) fn number(x: f64) -> String {
     if (0.01..1e4).contains(&x) || x == 0.0 {
         format!("{x}")

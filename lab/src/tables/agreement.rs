@@ -1,28 +1,28 @@
-//! Whether the figures' rays are as many as in the thesis's table II.
+//! Compares the figures' numbers of rays with the thesis's table II.
 
-use super::number::Number;
+use super::number::TableNumber;
 use super::runs::Runs;
-use super::subject::{FIGURES, Trial};
+use super::subject::{FIGURES, SceneVariant};
 use super::table::Quantity;
 use super::thesis::{Datum, Thesis};
 use octray_render::counts::thousands;
 use octray_render::error::Error;
 use octray_render::stats::Rays;
 
-/// Reflected rays, which have to agree within 5 %.
+/// Reflected rays; they must agree within 5 %.
 pub const REFLECTED: Quantity = Quantity::rays("reflected rays", 0.05);
 
-/// Light tests that found something in between, "shadows" in the thesis, which have to agree within 15 %.
+/// Light tests that found an object in between ("shadows" in the thesis); they must agree within 15 %.
 pub const BLOCKED: Quantity = Quantity::rays("blocked light tests", 0.15);
 
-/// For each count of the thesis that ours does not agree with, with as many lights as it has: which set of
-/// the scene's first lights comes nearest. One sentence if no count is at hand.
+/// Returns a sentence for each count of the thesis with which ours does not agree for the stated number of lights: it
+/// names the set of first lights that comes nearest. Returns one sentence if no count is known.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn notes(runs: &Runs<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
     let of_rays = |datum: &&Datum| !datum.is_ratio() && count_of(datum).is_some();
-    let data: Vec<&Datum> = thesis.of(Number::Two).filter(of_rays).collect();
+    let data: Vec<&Datum> = thesis.of(TableNumber::Two).filter(of_rays).collect();
     if data.is_empty() {
         return Ok(vec![
             "The thesis's counts of rays are not at hand. So whether ours agree (reflected rays within 5 %, blocked \
@@ -38,10 +38,10 @@ pub fn notes(runs: &Runs<'_>, thesis: &Thesis) -> Result<Vec<String>, Error> {
         .collect())
 }
 
-/// How rays of a kind are counted.
+/// Returns the number of rays of a kind.
 type Count = fn(&Rays) -> u64;
 
-/// How a quantity is counted, and by what share it may differ.
+/// Returns how a quantity is counted, and the allowed relative difference.
 fn count_of(datum: &Datum) -> Option<(Count, f64)> {
     let counts: [(Quantity, Count); 2] = [
         (REFLECTED, |rays| rays.reflected),
@@ -52,7 +52,7 @@ fn count_of(datum: &Datum) -> Option<(Count, f64)> {
     Some((count, quantity.within?))
 }
 
-/// What comes nearest to a count of the thesis; `None` if ours agrees, or there is none of ours.
+/// Returns what comes nearest to a count of the thesis; `None` if ours agrees, or we have none.
 fn nearest(runs: &Runs<'_>, datum: &Datum) -> Result<Option<String>, Error> {
     let subject = FIGURES
         .into_iter()
@@ -64,8 +64,8 @@ fn nearest(runs: &Runs<'_>, datum: &Datum) -> Result<Option<String>, Error> {
     };
     let all = subject.scene()?.lights.len();
     let with = |lights| {
-        let trial = Trial::of(subject).with_lights(lights, all);
-        Ok::<_, Error>((lights, count(&runs.tally(trial)?.rays)))
+        let scene_variant = SceneVariant::of(subject).with_lights(lights, all);
+        Ok::<_, Error>((lights, count(&runs.count(scene_variant)?.rays)))
     };
     let off = |ours: u64| (ours as f64 / datum.value - 1.0).abs();
     if (1..=all).contains(&stated) && off(with(stated)?.1) <= within {
@@ -95,15 +95,15 @@ mod tests {
     use octray_render::interrupt::Interrupt;
 
     #[test]
-    fn the_nearest_light_set_is_found_where_the_stated_one_is_not_near() {
+    fn the_nearest_light_set_is_found_if_the_stated_one_disagrees() {
         let interrupt = Interrupt::new();
         let runs = Runs::new(Some((64, 64)), false, &interrupt);
         let blocked = |lights| {
-            let trial = Trial {
+            let scene_variant = SceneVariant {
                 lights: Some(lights),
-                ..Trial::of(FIGURES[1])
+                ..SceneVariant::of(FIGURES[1])
             };
-            runs.tally(trial).unwrap().rays.blocked
+            runs.count(scene_variant).unwrap().rays.blocked
         };
         let (three, ten) = (blocked(3), blocked(10));
         let lines = format!(
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn that_nothing_is_known_is_told() {
+    fn missing_counts_are_reported() {
         let interrupt = Interrupt::new();
         let runs = Runs::new(Some((8, 8)), false, &interrupt);
         let notes = notes(&runs, &Thesis::default()).unwrap();

@@ -1,7 +1,7 @@
-//! Table III: what pictures cost without and with a floating-point unit, from a record of `octray measure`.
+//! Table III: the cost of pictures without and with a floating-point unit, from a record of `octray measure`.
 
-use super::number::Number;
-use super::record::{self, Row};
+use super::number::TableNumber;
+use super::record::{self, RecordRow};
 use super::table::{Base, Draft, Quantity};
 use crate::measure::ratio::{CORES, geometric_mean};
 use octray_prepare::Arith;
@@ -9,10 +9,10 @@ use octray_render::error::Error;
 use std::fs;
 use std::path::Path;
 
-/// The table of a record, or without one of the newest that comes with octray.
+/// Makes the table from a record, or from the newest that comes with octray.
 ///
 /// # Errors
-/// [`Error::Read`] if the record cannot be read, [`Error::Failed`] if it is none or lacks the boards.
+/// [`Error::Read`] if the record cannot be read, [`Error::Failed`] if it is invalid or lacks the boards.
 pub fn three(path: Option<&Path>) -> Result<Draft, Error> {
     match path {
         None => of(record::NEWEST, record::NAME),
@@ -31,7 +31,8 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
     };
     let rows = record::read(text).map_err(|error| failed(&error))?;
     let cost = |scene: &str, board: &str| {
-        let here = |row: &&Row| row.scene == scene && row.board == board && row.arith == Arith::F32;
+        let here =
+            |row: &&RecordRow| row.scene == scene && row.board == board && row.arith == Arith::F32;
         rows.iter().find(here)?.per_pixel
     };
     let mut scenes: Vec<&str> = Vec::new();
@@ -80,7 +81,7 @@ fn of(text: &str, name: &str) -> Result<Draft, Error> {
         ..Quantity::count(name)
     };
     Ok(Draft {
-        number: Number::Three,
+        number: TableNumber::Three,
         quantities: vec![core("Cortex-M4"), core("RV32")],
         base: Base::OfScene,
         lines,
@@ -102,13 +103,13 @@ mod tests {
     }
 
     #[test]
-    fn the_documentation_gives_the_ratios_of_the_newest_record() {
+    fn the_documentation_states_the_ratios_of_the_newest_record() {
         let note = three(None).unwrap().notes.swap_remove(0);
         let number = |word: &str| word.parse::<f64>().is_ok().then(|| word.to_owned());
         let ratios: Vec<_> = note.split(' ').filter_map(number).collect();
-        let told = format!("| {} (geometric means)", ratios.join(" and "));
+        let expected = format!("| {} (geometric means)", ratios.join(" and "));
         let page = include_str!("../../../docs/thesis-tables.md");
-        assert!(page.contains(&told), "{told}");
+        assert!(page.contains(&expected), "{expected}");
     }
 
     #[test]
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_record_is_refused() {
+    fn invalid_records_are_refused() {
         for (text, expected) in [
             ("a,b\n1,2\n", "missing field"),
             (
@@ -144,8 +145,8 @@ mod tests {
                 "no scene in f32 on m4 and m4f, rv32imac and rv32imafc",
             ),
         ] {
-            let told = of(text, "a.csv").unwrap_err().to_string();
-            assert!(told.contains(expected), "{told}");
+            let message = of(text, "a.csv").unwrap_err().to_string();
+            assert!(message.contains(expected), "{message}");
         }
     }
 }

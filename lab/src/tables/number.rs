@@ -1,4 +1,4 @@
-//! The thesis's tables by number.
+//! The numbers of the thesis's tables.
 
 use serde::{Deserialize, Serialize};
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
@@ -20,7 +20,7 @@ use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
     IntoStaticStr,
 )]
 #[strum(serialize_all = "kebab-case")]
-pub enum Number {
+pub enum TableNumber {
     /// Voxel and surface tests, plain octree against modified.
     #[strum(serialize = "I")]
     #[serde(rename = "I")]
@@ -59,8 +59,8 @@ pub enum Number {
     Nine,
 }
 
-impl Number {
-    /// The Roman numeral.
+impl TableNumber {
+    /// Returns the Roman numeral.
     pub fn name(self) -> &'static str {
         match self {
             Self::One => "I",
@@ -75,7 +75,7 @@ impl Number {
         }
     }
 
-    /// What the table shows.
+    /// Returns the title of the table.
     pub fn title(self) -> &'static str {
         match self {
             Self::One => "voxel and surface tests, plain octree against modified",
@@ -90,7 +90,7 @@ impl Number {
         }
     }
 
-    /// What its variants are.
+    /// Returns the heading of its variants.
     pub fn variants(self) -> &'static str {
         match self {
             Self::One => "octree",

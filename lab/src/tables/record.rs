@@ -10,14 +10,14 @@ pub const NAME: &str = env!("OCTRAY_RECORD_NAME");
 /// Its chart: SVG.
 pub const CHART: &str = include_str!(env!("OCTRAY_RECORD_CHART"));
 
-/// What a picture costs on a board: the columns that are shown. Where there are no numbers, the run has failed.
+/// The cost of a picture on a board: the columns that tables show. If there are no numbers, the run failed.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Row {
+pub struct RecordRow {
     /// The scene's name.
     pub scene: String,
     /// The board's name.
     pub board: String,
-    /// The arithmetic that was asked for.
+    /// The requested arithmetic.
     pub arith: Arith,
     /// The number format that was used; `None` if there are no numbers.
     #[serde(default)]
@@ -33,10 +33,10 @@ pub struct Row {
     /// Bytes of variables.
     #[serde(default)]
     pub ram: Option<u64>,
-    /// Bytes of the deepest stack.
+    /// Maximum depth of the stack in bytes.
     #[serde(default)]
     pub stack: Option<u64>,
-    /// Distance from the picture in `f64` in dB; `None` if they are equal, too.
+    /// Distance from the picture in `f64` (PSNR), in dB; `None` if they are equal or there are no numbers.
     #[serde(default)]
     pub psnr: Option<f64>,
     /// The commit that was measured.
@@ -47,11 +47,11 @@ pub struct Row {
     pub emulator: String,
 }
 
-/// The rows of a record.
+/// Parses the rows of a record.
 ///
 /// # Errors
-/// If it is none.
-pub fn read(text: &str) -> Result<Vec<Row>, csv::Error> {
+/// If it is invalid.
+pub fn read(text: &str) -> Result<Vec<RecordRow>, csv::Error> {
     csv::Reader::from_reader(text.as_bytes())
         .deserialize()
         .collect()

@@ -1,6 +1,6 @@
-//! Where scenes are traced for the tables, each variant once.
+//! Traces scenes for the tables, each variant once.
 
-use super::subject::{Subject, Trial};
+use super::subject::{SceneVariant, Subject};
 use octray_core::frame::Region;
 use octray_prepare::{RenderSettings, TreeSettings};
 use octray_render::cost::{self, CostMap};
@@ -16,37 +16,37 @@ use octray_render::tile::TileSize;
 use std::cell::RefCell;
 use std::num::{NonZeroU32, NonZeroUsize};
 
-/// Traces, and remembers what came out.
+/// Traces variants, and caches the counts.
 #[derive(Debug)]
 pub struct Runs<'a> {
     /// Columns and rows; the scenes' own if `None`.
     pub size: Option<(u32, u32)>,
-    /// Whether time is taken, for which one thread works.
+    /// Whether time is measured; then one thread is used.
     pub time: bool,
-    /// Ctrl-C.
+    /// Requests a stop.
     pub interrupt: &'a Interrupt,
-    seen: RefCell<Vec<(Trial, Tally)>>,
+    seen: RefCell<Vec<(SceneVariant, TraceCounts)>>,
 }
 
-/// What was counted.
+/// The counts of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tally {
+pub struct TraceCounts {
     /// Pixels of the picture.
     pub pixels: u64,
     /// Rays by kind.
     pub rays: Rays,
-    /// Voxels that rays went through.
+    /// Node visits of rays, "voxel tests" in the thesis.
     pub steps: u64,
-    /// Surfaces that rays were tested against.
+    /// Tests of a ray against a surface.
     pub tests: u64,
     /// Instructions, by [`cost::cost`].
     pub instructions: f64,
-    /// Time to trace, in seconds.
+    /// Tracing time in seconds.
     pub seconds: f64,
 }
 
 impl<'a> Runs<'a> {
-    /// Nothing is traced yet.
+    /// Returns an empty cache.
     pub fn new(size: Option<(u32, u32)>, time: bool, interrupt: &'a Interrupt) -> Self {
         Self {
             size,
@@ -56,17 +56,17 @@ impl<'a> Runs<'a> {
         }
     }
 
-    /// What tracing a scene takes, in f32.
+    /// Returns the counts of tracing a scene in f32.
     ///
     /// # Errors
-    /// As [`render_with`].
-    pub fn tally(&self, trial: Trial) -> Result<Tally, Error> {
-        let known = |seen: &Vec<(Trial, Tally)>| {
-            let found = seen.iter().find(|(other, _)| *other == trial);
-            found.map(|(_, tally)| *tally)
+    /// Those of [`render_with`].
+    pub fn count(&self, scene_variant: SceneVariant) -> Result<TraceCounts, Error> {
+        let known = |seen: &Vec<(SceneVariant, TraceCounts)>| {
+            let found = seen.iter().find(|(other, _)| *other == scene_variant);
+            found.map(|(_, counts)| *counts)
         };
-        if let Some(tally) = known(&self.seen.borrow()) {
-            return Ok(tally);
+        if let Some(counts) = known(&self.seen.borrow()) {
+            return Ok(counts);
         }
         let mut work = Schedule {
             policy: Policy::Dynamic,
@@ -76,42 +76,42 @@ impl<'a> Runs<'a> {
         if self.time {
             work.threads = NonZeroUsize::MIN;
         }
-        let (scene, settings) = (trial.scene()?, self.settings(&trial));
+        let (scene, settings) = (scene_variant.scene()?, self.settings(&scene_variant));
         let traced = render_with(&scene, &settings, &work, false, &(), self.interrupt)?;
-        let tally = Tally::of(&traced);
-        self.seen.borrow_mut().push((trial, tally));
-        Ok(tally)
+        let counts = TraceCounts::of(&traced);
+        self.seen.borrow_mut().push((scene_variant, counts));
+        Ok(counts)
     }
 
-    /// How many trials have been traced.
+    /// Returns the number of traced variants.
     #[cfg(test)]
     pub(super) fn traced(&self) -> usize {
         self.seen.borrow().len()
     }
 
-    /// What each pixel of a scene costs, and the rows that cost anything.
+    /// Returns the cost of each pixel of a scene, and the region that costs anything.
     ///
     /// # Errors
-    /// As [`renderer::prepare`] and [`CostMap::probe`].
+    /// Those of [`renderer::prepare`] and [`CostMap::probe`].
     pub fn map(&self, subject: Subject) -> Result<(CostMap, Region), Error> {
-        let trial = Trial::of(subject);
-        let renderer = renderer::prepare(&trial.scene()?, &self.settings(&trial))?;
+        let scene_variant = SceneVariant::of(subject);
+        let renderer = renderer::prepare(&scene_variant.scene()?, &self.settings(&scene_variant))?;
         let map = CostMap::probe(&*renderer, NonZeroU32::MIN, self.interrupt)?;
         Ok((map, renderer.built().region()))
     }
 
-    /// The defaults of `octray render`.
-    fn settings(&self, trial: &Trial) -> RenderSettings {
+    /// Returns the defaults of `octray render` for a variant.
+    fn settings(&self, scene_variant: &SceneVariant) -> RenderSettings {
         RenderSettings {
-            tree: TreeSettings::of(trial.tree),
-            size: self.size.map(|size| trial.resized(size)),
-            pixels_per_ray: trial.pixels_per_ray,
+            tree: TreeSettings::of(scene_variant.tree),
+            size: self.size.map(|size| scene_variant.resized(size)),
+            pixels_per_ray: scene_variant.pixels_per_ray,
             ..RenderSettings::DEFAULT
         }
     }
 }
 
-impl Tally {
+impl TraceCounts {
     fn of(traced: &Rendering) -> Self {
         let counters = &traced.counters;
         Self {
@@ -131,21 +131,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cost_of_a_trial_is_that_of_its_map() {
+    fn the_cost_of_a_run_is_that_of_its_map() {
         let interrupt = Interrupt::new();
         let runs = Runs::new(Some((48, 32)), false, &interrupt);
-        let tally = runs.tally(Trial::of(FIGURES[2])).unwrap();
+        let counts = runs.count(SceneVariant::of(FIGURES[2])).unwrap();
         let (map, _) = runs.map(FIGURES[2]).unwrap();
-        // What blocked a light last is forgotten between tiles, and tests of boxes are dear: 4 % in so small a
-        // picture.
-        let beyond = map.total() / tally.instructions - 1.0;
+        // The shadow cache is cleared between tiles, and box tests are expensive: 4 % in a picture this small.
+        let beyond = map.total() / counts.instructions - 1.0;
         assert!(beyond.abs() < 0.05, "{beyond}");
-        assert_eq!(tally.pixels, 48 * 32);
-        let larger = Trial {
+        assert_eq!(counts.pixels, 48 * 32);
+        let larger = SceneVariant {
             larger: true,
-            ..Trial::of(FIGURES[2])
+            ..SceneVariant::of(FIGURES[2])
         };
-        assert_eq!(runs.tally(larger).unwrap().pixels, 60 * 40);
+        assert_eq!(runs.count(larger).unwrap().pixels, 60 * 40);
         assert_eq!(runs.traced(), 2);
     }
 }

@@ -1,6 +1,6 @@
 //! The tables of how processors share a picture: VIII and IX, simulated.
 
-use super::number::Number;
+use super::number::TableNumber;
 use super::runs::Runs;
 use super::subject::FIGURES;
 use super::table::{Base, Draft, DraftLine, Quantity};
@@ -18,10 +18,10 @@ pub const ROWS: [u32; 8] = [2, 4, 8, 16, 32, 64, 128, 256];
 /// Numbers of processors in table IX.
 pub const PROCESSORS: [u32; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 
-/// The thesis's policies that it compares.
+/// The thesis's policies, which the tables compare.
 pub const POLICIES: [Policy; 2] = [Policy::Static, Policy::Dynamic];
 
-/// What is simulated.
+/// The parameters of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Simulation {
     /// The processors of table VIII.
@@ -32,7 +32,7 @@ pub struct Simulation {
     pub machine: Machine,
 }
 
-/// What each pixel of a figure costs.
+/// The cost of each pixel of a figure.
 #[derive(Clone, Debug)]
 pub struct Figure {
     name: &'static str,
@@ -41,10 +41,10 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Traces all five.
+    /// Traces all five figures.
     ///
     /// # Errors
-    /// As [`Runs::map`].
+    /// Those of [`Runs::map`].
     pub fn all(runs: &Runs<'_>) -> Result<Vec<Self>, Error> {
         let figures = FIGURES.into_iter().map(|subject| {
             let (map, region) = runs.map(subject)?;
@@ -57,7 +57,7 @@ impl Figure {
         figures.collect()
     }
 
-    /// Shares the picture in tiles of so many rows.
+    /// Simulates sharing the picture in tiles of this many rows.
     fn share(
         &self,
         policy: Policy,
@@ -67,19 +67,19 @@ impl Figure {
     ) -> Outcome {
         let tiles = TileSize::strip(rows).cut(&self.region);
         let costs: Vec<f64> = tiles.map(|tile| self.map.cost(&tile)).collect();
-        // As many as fit into 32 bits fit here.
+        // A 32-bit number fits.
         let processors = NonZeroUsize::try_from(processors).unwrap_or(NonZeroUsize::MAX);
         let deal = Scheduler::new(policy, costs.len(), processors, Vec::new());
         simulate(&costs, &deal, machine)
     }
 }
 
-/// What came of it all.
+/// The results of all simulations.
 #[derive(Clone, Debug)]
 pub struct Outcomes {
     /// The rows of a tile, or the numbers of processors.
     pub across: &'static [u32],
-    /// For each figure its name, and for each value across what each of [`POLICIES`] gives.
+    /// For each figure its name, and for each value across the result of each of [`POLICIES`].
     pub figures: Vec<(&'static str, Vec<[Outcome; 2]>)>,
 }
 
@@ -118,10 +118,10 @@ impl Outcomes {
         }
     }
 
-    /// In how many of all combinations dynamic dealing takes no longer.
+    /// Returns in how many of all combinations the dynamic schedule is not slower.
     fn dynamic_is_no_slower(&self) -> (usize, usize) {
         let all = || self.figures.iter().flat_map(|(_, outcomes)| outcomes);
-        // Beyond rounding.
+        // Not counting rounding errors.
         let no_slower =
             |[fixed, dynamic]: &&[Outcome; 2]| dynamic.time <= fixed.time * (1.0 + 1e-9);
         (all().filter(no_slower).count(), all().count())
@@ -140,7 +140,7 @@ impl Outcomes {
     }
 }
 
-/// Table VIII.
+/// Makes table VIII.
 pub fn eight(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
     let (no_slower, all) = outcomes.dynamic_is_no_slower();
     let best = |policy: usize| {
@@ -150,14 +150,14 @@ pub fn eight(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
                 .iter()
                 .zip(times)
                 .map(|(rows, both)| (rows, both[policy].time));
-            // Among equals the first.
+            // Of equal ones the first.
             let least = of_policy.min_by(|a, b| a.1.total_cmp(&b.1));
             least.map_or(String::new(), |(rows, _)| rows.to_string())
         });
         rows.collect::<Vec<_>>().join(", ")
     };
     Draft {
-        number: Number::Eight,
+        number: TableNumber::Eight,
         quantities: vec![
             Quantity::instructions("time, static"),
             Quantity::instructions("time, dynamic"),
@@ -171,7 +171,7 @@ pub fn eight(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
                 best(0),
                 best(1)
             ),
-            told(
+            description(
                 simulation,
                 &format!("on {} processors", simulation.processors),
             ),
@@ -179,7 +179,7 @@ pub fn eight(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
     }
 }
 
-/// Table IX.
+/// Makes table IX.
 pub fn nine(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
     let (no_slower, all) = outcomes.dynamic_is_no_slower();
     let speed_up = |name| Quantity {
@@ -189,13 +189,13 @@ pub fn nine(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
         ..Quantity::count(name)
     };
     Draft {
-        number: Number::Nine,
+        number: TableNumber::Nine,
         quantities: vec![speed_up("speed-up, static"), speed_up("speed-up, dynamic")],
         base: Base::OfScene,
         lines: outcomes.lines(|outcome| outcome.speed_up),
         notes: vec![
             format!("Dynamic is no slower than static in {no_slower} of {all} cases."),
-            told(
+            description(
                 simulation,
                 &format!("in tiles of H = {} rows", simulation.rows),
             ),
@@ -204,8 +204,8 @@ pub fn nine(outcomes: &Outcomes, simulation: &Simulation) -> Draft {
     }
 }
 
-/// How it was simulated.
-fn told(simulation: &Simulation, how: &str) -> String {
+/// Describes the simulation.
+fn description(simulation: &Simulation, how: &str) -> String {
     let Machine {
         hand_out,
         contention,
@@ -234,7 +234,7 @@ mod tests {
         }
     }
 
-    /// A picture of 16 rows, of which the lower half costs three times as much.
+    /// A picture of 16 rows; the lower half costs three times as much.
     fn figure() -> Figure {
         let costs: Vec<Vec<f64>> = (0..16)
             .map(|row| vec![if row < 8 { 1e6 } else { 3e6 }])
@@ -251,11 +251,11 @@ mod tests {
     }
 
     #[test]
-    fn one_tile_is_not_shared_and_many_are() {
+    fn a_single_tile_is_not_shared_and_several_are() {
         let outcomes = Outcomes::by_rows(&[figure()], &simulation(Machine::default()));
         let draft = eight(&outcomes, &simulation(Machine::default()));
         let times: Vec<_> = draft.lines.iter().map(|line| line.2[1]).collect();
-        // In twos: four tiles of 2, four of 6 on seven processors. From 16 on there is one tile.
+        // Tiles of two rows: four of cost 2, four of cost 6 on seven processors. From 16 rows on there is one tile.
         assert_eq!(times, [8.0, 12.0, 24.0, 32.0, 32.0, 32.0, 32.0, 32.0]);
         assert!(draft.notes[0].contains("dynamic 2."), "{}", draft.notes[0]);
     }
@@ -275,10 +275,10 @@ mod tests {
     }
 
     #[test]
-    fn the_machine_is_told() {
-        let ideal = told(&simulation(Machine::default()), "so");
+    fn the_machine_is_described() {
+        let ideal = description(&simulation(Machine::default()), "so");
         assert!(ideal.contains("ideal"), "{ideal}");
-        let bus = told(
+        let bus = description(
             &simulation(Machine {
                 contention: 0.02,
                 ..Machine::default()

@@ -12,7 +12,7 @@ pub struct Subject {
     source: &'static str,
 }
 
-/// Balls whose centres lie in one plane, seen straight on: an octree of it is almost a quadtree.
+/// Balls whose centres lie in one plane, seen from the front: an octree of them is almost a quadtree.
 pub const FLAT: Subject = Subject {
     name: "flat",
     source: include_str!("flat.scene"),
@@ -43,28 +43,28 @@ pub const FIGURES: [Subject; 5] = [
 ];
 
 impl Subject {
-    /// The scene as its file has it.
+    /// Parses the scene's file.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it holds mistakes.
+    /// [`Error::Scene`] if it has mistakes.
     pub fn scene(&self) -> Result<Scene, Error> {
         octray_scenes::parse(self.source)
             .map_err(|mistakes| Error::Scene(mistakes.draw(self.name, self.source)))
     }
 }
 
-/// A scene in a variant, and how it is traced.
+/// A variant of a scene, and how it is traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trial {
+pub struct SceneVariant {
     /// The scene.
     pub subject: Subject,
-    /// Its first lights only, so many; all if `None`.
+    /// The number of its first lights to keep; all if `None`.
     pub lights: Option<usize>,
-    /// So many of its objects, evenly chosen; all if `None`.
+    /// The number of its objects to keep, evenly chosen; all if `None`.
     pub surfaces: Option<usize>,
-    /// Nothing reflects or lets light through.
+    /// Whether nothing reflects or transmits light.
     pub opaque: bool,
-    /// A quarter more columns and rows, which show more around the same picture.
+    /// Whether there are a quarter more columns and rows, which show more around the same picture.
     pub larger: bool,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
@@ -72,8 +72,8 @@ pub struct Trial {
     pub tree: TreeKind,
 }
 
-impl Trial {
-    /// The scene as it is, a ray for each pixel, with the default tree.
+impl SceneVariant {
+    /// Returns the unchanged scene, with one ray per pixel and the default tree.
     pub fn of(subject: Subject) -> Self {
         Self {
             subject,
@@ -86,7 +86,7 @@ impl Trial {
         }
     }
 
-    /// With the first lights only, so many of `all`.
+    /// Keeps the first `lights` of `all` lights.
     pub fn with_lights(self, lights: usize, all: usize) -> Self {
         Self {
             lights: (lights < all).then_some(lights),
@@ -94,7 +94,7 @@ impl Trial {
         }
     }
 
-    /// With so many surfaces of `all`.
+    /// Keeps `surfaces` of `all` surfaces.
     pub fn with_surfaces(self, surfaces: usize, all: usize) -> Self {
         Self {
             surfaces: (surfaces < all).then_some(surfaces),
@@ -102,10 +102,10 @@ impl Trial {
         }
     }
 
-    /// The scene in its variant.
+    /// Returns the scene of the variant.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it holds mistakes.
+    /// [`Error::Scene`] if it has mistakes.
     pub fn scene(&self) -> Result<Scene, Error> {
         let mut scene = self.subject.scene()?;
         if let Some(lights) = self.lights {
@@ -127,7 +127,7 @@ impl Trial {
         Ok(scene)
     }
 
-    /// Columns and rows of the picture, of what they are in the first variant.
+    /// Returns the columns and rows of the picture, from those of the unchanged scene.
     pub fn resized(&self, (width, height): (u32, u32)) -> (u32, u32) {
         match self.larger {
             true => (width * 5 / 4, height * 5 / 4),
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn the_flat_scene_is_flat_and_seen_straight_on() {
+    fn the_flat_scene_is_flat_and_seen_from_the_front() {
         use octray_scenes::model::{Camera, Projection, Shape};
         let scene = FLAT.scene().unwrap();
         for object in &scene.objects {
@@ -168,29 +168,29 @@ mod tests {
     }
 
     #[test]
-    fn variants_change_what_they_say() {
-        let trial = Trial::of(FIGURES[1]);
-        let all = trial.scene().unwrap();
+    fn variants_have_their_documented_effect() {
+        let scene_variant = SceneVariant::of(FIGURES[1]);
+        let all = scene_variant.scene().unwrap();
         assert_eq!((all.lights.len(), all.objects.len()), (10, 16));
-        let lights = Trial {
+        let lights = SceneVariant {
             lights: Some(3),
-            ..trial
+            ..scene_variant
         };
         assert_eq!(lights.scene().unwrap().lights[..], all.lights[..3]);
-        let few = Trial {
+        let few = SceneVariant {
             surfaces: Some(4),
-            ..trial
+            ..scene_variant
         };
         let every_fourth = [0, 4, 8, 12].map(|i| all.objects[i]);
         assert_eq!(few.scene().unwrap().objects, every_fourth);
-        // All of them are the scene as it is, which is traced once.
-        assert_eq!(trial.with_surfaces(16, 16), trial);
-        assert_eq!(trial.with_lights(10, 10), trial);
-        assert_eq!(trial.with_surfaces(4, 16), few);
-        assert_eq!(trial.with_lights(3, 10), lights);
-        let opaque = Trial {
+        // With all surfaces it is the unchanged scene, which is traced once.
+        assert_eq!(scene_variant.with_surfaces(16, 16), scene_variant);
+        assert_eq!(scene_variant.with_lights(10, 10), scene_variant);
+        assert_eq!(scene_variant.with_surfaces(4, 16), few);
+        assert_eq!(scene_variant.with_lights(3, 10), lights);
+        let opaque = SceneVariant {
             opaque: true,
-            ..trial
+            ..scene_variant
         };
         assert!(
             opaque
@@ -200,9 +200,9 @@ mod tests {
                 .iter()
                 .all(|s| s.reflect == 0.0)
         );
-        let larger = Trial {
+        let larger = SceneVariant {
             larger: true,
-            ..trial
+            ..scene_variant
         }
         .scene()
         .unwrap();

@@ -1,28 +1,28 @@
-//! A table of ours beside the thesis's.
+//! A table of our results beside the thesis's.
 
-use super::number::Number;
+use super::number::TableNumber;
 use super::thesis::{Datum, Place, Thesis};
 use serde::Serialize;
 
-/// What a column holds.
+/// The content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
     /// Its name.
     pub name: &'static str,
-    /// The name under which the thesis's figures are found, most often the same.
+    /// The name of the thesis's quantity, usually the same.
     pub thesis: &'static str,
-    /// Our unit; empty for a mere count.
+    /// Our unit; empty for a count.
     pub unit: &'static str,
-    /// How many decimals it is told with.
+    /// The number of decimals to print.
     pub decimals: usize,
-    /// Whether it is told as a ratio to the first variant's, too.
+    /// Whether the ratio to the first variant is printed too.
     pub ratio: bool,
-    /// If our unit is the thesis's: by what share the two may differ and still agree.
+    /// If our unit is the thesis's: the relative difference within which they agree.
     pub within: Option<f64>,
 }
 
 impl Quantity {
-    /// A count that is ours alone; only ratios compare.
+    /// Returns a count that only we have; only ratios can be compared.
     pub const fn count(name: &'static str) -> Self {
         Self {
             name,
@@ -34,7 +34,7 @@ impl Quantity {
         }
     }
 
-    /// A time, by [`octray_render::cost`]; only ratios compare.
+    /// Returns a time, by [`octray_render::cost`]; only ratios can be compared.
     pub const fn instructions(name: &'static str) -> Self {
         Self {
             unit: "M instructions",
@@ -43,7 +43,7 @@ impl Quantity {
         }
     }
 
-    /// A count that has to be the thesis's, but for a share.
+    /// Returns a count that must agree with the thesis's within a share.
     pub const fn rays(name: &'static str, within: f64) -> Self {
         Self {
             within: Some(within),
@@ -52,7 +52,7 @@ impl Quantity {
     }
 }
 
-/// To what line ratios are.
+/// The line to which ratios refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     /// The first one of the same scene.
@@ -61,89 +61,89 @@ pub enum Base {
     OfTable,
 }
 
-/// Scene, variant, and a value for each quantity.
+/// Scene, variant, and a value per quantity.
 pub type DraftLine = (String, String, Vec<f64>);
 
-/// A table before it is compared: what came out here.
+/// A table of our results, before the comparison.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// Which one.
-    pub number: Number,
-    /// What the columns after scene and variant hold.
+    /// The number of the table.
+    pub number: TableNumber,
+    /// The contents of the columns after scene and variant.
     pub quantities: Vec<Quantity>,
-    /// To what line ratios are.
+    /// The line to which ratios refer.
     pub base: Base,
     /// Its lines.
     pub lines: Vec<DraftLine>,
-    /// What is to be said of it.
+    /// Remarks.
     pub notes: Vec<String>,
 }
 
-/// A table of ours beside the thesis's.
+/// A table of our results beside the thesis's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// Which one.
-    pub table: Number,
-    /// What it shows.
+    /// The number of the table.
+    pub table: TableNumber,
+    /// The title.
     pub title: &'static str,
-    /// What the variants are.
+    /// The heading of the variants.
     pub variants: &'static str,
-    /// What the columns hold.
+    /// The contents of the columns.
     #[serde(skip)]
     pub quantities: Vec<Quantity>,
     /// Its lines.
-    pub lines: Vec<Line>,
-    /// What the thesis has in this table that belongs to none of the lines.
+    pub lines: Vec<TableLine>,
+    /// The thesis's numbers of this table that belong to none of the lines.
     pub also: Vec<Datum>,
-    /// What is to be said of it.
+    /// Remarks.
     pub notes: Vec<String>,
 }
 
 /// A scene in a variant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
+pub struct TableLine {
     /// The scene.
     pub scene: String,
     /// The variant.
     pub variant: String,
-    /// A value for each quantity.
+    /// A value per quantity.
     pub values: Vec<Value>,
 }
 
-/// What came out here, beside the thesis.
+/// Our value, beside the thesis's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Value {
-    /// What it is.
+    /// The name of the quantity.
     pub quantity: &'static str,
     /// Our unit.
     pub unit: &'static str,
-    /// Ours.
+    /// Our value.
     pub ours: f64,
-    /// Its ratio to the first variant's; `None` for that itself.
+    /// Its ratio to the first variant's; `None` for the first variant.
     pub ratio: Option<f64>,
-    /// The thesis's, for each machine that it has in this column.
+    /// The thesis's values, one per machine in this column.
     pub thesis: Vec<Given>,
 }
 
-/// What the thesis has.
+/// A value of the thesis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Given {
-    /// On which machine; empty if that does not matter.
+    /// The machine; empty if it does not matter.
     pub machine: String,
-    /// Its figure, if at hand.
+    /// The number, if known.
     pub value: Option<f64>,
     /// Its unit.
     pub unit: String,
-    /// Its ratio to the first variant's, as far as at hand.
+    /// Its ratio to the first variant's, if known.
     pub ratio: Option<f64>,
-    /// Ours over it: figures of the same unit, otherwise ratios.
+    /// Ours over the thesis's: of the numbers if they have the same unit, otherwise of the ratios.
     pub ours_over_thesis: Option<f64>,
-    /// On which page.
+    /// The page.
     pub page: Option<u32>,
 }
 
 impl Draft {
-    /// The table beside what the thesis has.
+    /// Compares the draft with the thesis.
     pub fn beside(self, thesis: &Thesis) -> Table {
         let (placed, also): (Vec<&Datum>, Vec<&Datum>) =
             (thesis.of(self.number)).partition(|datum| self.has(datum));
@@ -159,8 +159,8 @@ impl Draft {
                 .map(|machine| self.given(line, i, machine, thesis))
                 .collect(),
         };
-        let lines: Vec<Line> = (self.lines.iter())
-            .map(|line| Line {
+        let lines: Vec<TableLine> = (self.lines.iter())
+            .map(|line| TableLine {
                 scene: line.0.clone(),
                 variant: line.1.clone(),
                 values: (0..self.quantities.len()).map(|i| value(line, i)).collect(),
@@ -179,7 +179,7 @@ impl Draft {
         }
     }
 
-    /// Where the thesis would have the figure of a line.
+    /// Returns the place of a line's number in the thesis.
     fn place<'a>(&'a self, line: &'a DraftLine, i: usize) -> Place<'a> {
         Place {
             table: self.number,
@@ -189,13 +189,13 @@ impl Draft {
         }
     }
 
-    /// Whether a figure of the thesis belongs to a line.
+    /// Returns whether a number of the thesis belongs to a line.
     fn has(&self, datum: &Datum) -> bool {
         let of_line = |line| (0..self.quantities.len()).any(|i| datum.is_at(self.place(line, i)));
         self.lines.iter().any(of_line)
     }
 
-    /// The line to which a ratio is; `None` for that line itself.
+    /// Returns the line to which a ratio refers; `None` for that line itself.
     fn base(&self, line: &DraftLine, i: usize) -> Option<&DraftLine> {
         let found = (self.lines.iter())
             .find(|other| self.base == Base::OfTable || other.0 == line.0)
@@ -207,15 +207,15 @@ impl Draft {
         quotient(line.2[i], self.base(line, i)?.2[i])
     }
 
-    /// What the thesis has from a machine.
+    /// Returns the thesis's value from a machine.
     fn given(&self, line: &DraftLine, i: usize, machine: &str, thesis: &Thesis) -> Given {
         let place = self.place(line, i);
-        let (value, told) = (thesis.value(place, machine), thesis.ratio(place, machine));
+        let (value, stated_ratio) = (thesis.value(place, machine), thesis.ratio(place, machine));
         let computed = || {
             let base = self.place(self.base(line, i)?, i);
             quotient(value?.value, thesis.value(base, machine)?.value)
         };
-        let ratio = told.map(|datum| datum.value).or_else(computed);
+        let ratio = stated_ratio.map(|datum| datum.value).or_else(computed);
         Given {
             machine: machine.into(),
             value: value.map(|datum| datum.value),
@@ -228,17 +228,17 @@ impl Draft {
                     ratio.unwrap_or(f64::NAN),
                 ),
             },
-            page: value.or(told).and_then(|datum| datum.page),
+            page: value.or(stated_ratio).and_then(|datum| datum.page),
         }
     }
 }
 
-/// A quotient that is a number.
+/// Returns a quotient if it is a number.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     Some(a / b).filter(|quotient| quotient.is_finite())
 }
 
-/// The machines from which there is a quantity.
+/// Returns the machines for which the thesis has a quantity.
 fn machines<'a>(placed: &[&'a Datum], quantity: &Quantity) -> Vec<&'a str> {
     let mut machines: Vec<&str> = Vec::new();
     for datum in placed {
@@ -249,8 +249,8 @@ fn machines<'a>(placed: &[&'a Datum], quantity: &Quantity) -> Vec<&'a str> {
     machines
 }
 
-/// How many of the figures that ought to agree do; `None` if none is at hand.
-fn agreement(lines: &[Line], column: usize, quantity: &Quantity) -> Option<String> {
+/// States how many numbers that should agree do; `None` if none is known.
+fn agreement(lines: &[TableLine], column: usize, quantity: &Quantity) -> Option<String> {
     let within = quantity.within?;
     let compared: Vec<f64> = (lines.iter())
         .flat_map(|line| &line.values[column].thesis)
@@ -277,7 +277,7 @@ pub(super) mod tests {
             (scene.into(), variant.into(), vec![time, rays])
         };
         Draft {
-            number: Number::Four,
+            number: TableNumber::Four,
             quantities: vec![
                 Quantity::instructions("time"),
                 Quantity::rays("reflected rays", 0.05),
@@ -314,18 +314,18 @@ V,figure-19,opaque,time,,1,,";
         assert_eq!(balance.ours_over_thesis, Some(1.2));
         assert_eq!((balance.value, balance.page), (Some(20.0), Some(60)));
         assert_eq!((sun.value, sun.ratio), (None, None));
-        // A ratio that is given as such.
+        // A value that the thesis states as a ratio.
         let sun = &table.lines[3].values[0].thesis[1];
         let expected = (Some(1.5), Some(2.0 / 1.5));
         assert_eq!((sun.ratio, sun.ours_over_thesis), expected);
-        // The first variant has no ratio, but its figure.
+        // The first variant has no ratio, but the thesis's number.
         let first = &table.lines[0].values[0];
         assert_eq!((first.ratio, first.thesis[0].ratio), (None, None));
         assert_eq!(first.thesis[0].value, Some(8.0));
     }
 
     #[test]
-    fn what_has_the_same_unit_is_compared_directly() {
+    fn values_of_the_same_unit_are_compared_directly() {
         let table = draft(Base::OfScene).beside(&thesis(LINES).unwrap());
         assert_eq!(
             table.lines[1].values[1].thesis[0].ours_over_thesis,
@@ -336,14 +336,14 @@ V,figure-19,opaque,time,,1,,";
     }
 
     #[test]
-    fn what_belongs_nowhere_is_not_lost() {
+    fn numbers_that_belong_to_no_line_are_kept() {
         let table = draft(Base::OfScene).beside(&thesis(LINES).unwrap());
         let also: Vec<String> = table.also.iter().map(Datum::to_string).collect();
         assert_eq!(also, ["figure-24, reflected rays, reflective: 1"]);
     }
 
     #[test]
-    fn ratios_may_be_to_the_first_line_of_all() {
+    fn ratios_may_refer_to_the_first_line_of_the_table() {
         let table = draft(Base::OfTable).beside(&Thesis::default());
         let ratios: Vec<_> = table
             .lines

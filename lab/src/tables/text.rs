@@ -1,14 +1,14 @@
-//! A table, to read.
+//! Formats a table as text.
 
-use super::table::{Line, Quantity, Table, Value};
+use super::table::{Quantity, Table, TableLine, Value};
 use comfy_table::{CellAlignment, presets};
 use octray_render::counts::thousands;
 use std::fmt::Write;
 
-/// What is told of what is not known.
+/// The text for an unknown value.
 const UNKNOWN: &str = "not at hand";
 
-/// The table under its title, and below it what is to be said of it.
+/// Formats the table with its title and remarks.
 pub fn of(table: &Table) -> String {
     let title = format!("Table {}: {}", table.table.name(), table.title);
     let mut text = format!("{title}\n\n{}\n\n", grid(table));
@@ -18,7 +18,7 @@ pub fn of(table: &Table) -> String {
     text
 }
 
-/// What is to be said of a table.
+/// Returns the remarks of a table.
 pub fn notes(table: &Table) -> Vec<String> {
     (table.also.iter())
         .map(|datum| format!("The thesis also has, for no line above: {datum}."))
@@ -26,7 +26,7 @@ pub fn notes(table: &Table) -> Vec<String> {
         .collect()
 }
 
-/// The lines and columns alone.
+/// Formats only the lines and columns.
 pub fn grid(table: &Table) -> String {
     let mut columns = vec![
         Column {
@@ -63,10 +63,10 @@ pub fn grid(table: &Table) -> String {
 
 struct Column<'a> {
     heading: String,
-    cell: Box<dyn Fn(&Line) -> String + 'a>,
+    cell: Box<dyn Fn(&TableLine) -> String + 'a>,
 }
 
-/// Our value, its ratio, and what the thesis has.
+/// Returns the columns of our value, its ratio, and the thesis's values.
 fn columns_of<'a>(table: &'a Table, i: usize, quantity: &'a Quantity) -> Vec<Column<'a>> {
     let heading = match quantity.unit {
         "" => quantity.name.into(),
@@ -136,7 +136,7 @@ fn ratio(ratio: f64) -> String {
     format!("{ratio:.2}")
 }
 
-/// The thesis's figure with the decimals it has.
+/// Formats the thesis's number with the decimals it has.
 fn plain(value: f64) -> String {
     match value.fract() == 0.0 && (0.0..1e15).contains(&value) {
         true => thousands(value as u64),
@@ -144,7 +144,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// A number that is not negative, with commas and so many decimals.
+/// Formats a non-negative number with commas and `decimals` decimals.
 fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));

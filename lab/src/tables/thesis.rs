@@ -1,43 +1,43 @@
-//! What the thesis has: its figures as far as they are known, from a file of comma-separated values.
+//! The known numbers of the thesis, from a file of comma-separated values.
 
-use super::number::Number;
+use super::number::TableNumber;
 use octray_render::error::Error;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 
-/// The figures that come with octray; its head says what the columns hold.
+/// The numbers that come with octray; the file's header describes the columns.
 const KNOWN: &str = include_str!("thesis.csv");
 
 /// The unit of a value that is a ratio to the first variant.
 const RATIO: &str = "ratio";
 
-/// A figure of the thesis.
+/// A number of the thesis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Datum {
-    /// In which table.
-    pub table: Number,
-    /// Of which scene; empty if not known.
+    /// Its table.
+    pub table: TableNumber,
+    /// Its scene; empty if not known.
     pub scene: String,
-    /// Of which variant of it.
+    /// Its variant of the scene.
     pub variant: String,
     /// What it counts.
     pub quantity: String,
-    /// Where it was measured; empty if that does not matter.
+    /// The machine on which it was measured; empty if that does not matter.
     pub machine: String,
-    /// The figure, finite.
+    /// The number, finite.
     pub value: f64,
-    /// Its unit; empty for a mere count.
+    /// Its unit; empty for a count.
     pub unit: String,
-    /// On which page; not known if `None`.
+    /// Its page; `None` if not known.
     pub page: Option<u32>,
 }
 
-/// Whose figure is sought.
+/// The place of a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     /// The table.
-    pub table: Number,
+    pub table: TableNumber,
     /// The scene.
     pub scene: &'a str,
     /// The variant.
@@ -46,15 +46,15 @@ pub struct Place<'a> {
     pub quantity: &'a str,
 }
 
-/// All figures of the thesis that are known.
+/// All known numbers of the thesis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Thesis(Vec<Datum>);
 
 impl Thesis {
-    /// Those of a file, or without one those that come with octray.
+    /// Reads a file, or the numbers that come with octray.
     ///
     /// # Errors
-    /// [`Error::Read`] if the file cannot be read, [`Error::Failed`] if it is not of the form.
+    /// [`Error::Read`] if the file cannot be read, [`Error::Failed`] if it has the wrong form.
     pub fn read(path: Option<&Path>) -> Result<Self, Error> {
         let Some(path) = path else {
             return Self::parse(KNOWN, "thesis.csv");
@@ -89,17 +89,17 @@ impl Thesis {
         Ok(Self(data))
     }
 
-    /// The figures of a table.
-    pub fn of(&self, table: Number) -> impl Iterator<Item = &Datum> {
+    /// Returns the numbers of a table.
+    pub fn of(&self, table: TableNumber) -> impl Iterator<Item = &Datum> {
         self.0.iter().filter(move |datum| datum.table == table)
     }
 
-    /// A figure that is no ratio.
+    /// Returns a number that is not a ratio.
     pub fn value(&self, place: Place<'_>, machine: &str) -> Option<&Datum> {
         self.at(place, machine).find(|datum| !datum.is_ratio())
     }
 
-    /// A figure that is a ratio to the first variant.
+    /// Returns a ratio to the first variant.
     pub fn ratio(&self, place: Place<'_>, machine: &str) -> Option<&Datum> {
         self.at(place, machine).find(|datum| datum.is_ratio())
     }
@@ -110,7 +110,7 @@ impl Thesis {
 }
 
 impl Datum {
-    /// Whose it is.
+    /// Returns its place.
     pub fn place(&self) -> Place<'_> {
         Place {
             table: self.table,
@@ -120,7 +120,7 @@ impl Datum {
         }
     }
 
-    /// Whether it is somebody's.
+    /// Returns whether it belongs to a place.
     pub fn is_at(&self, place: Place<'_>) -> bool {
         self.table == place.table
             && self.scene == place.scene
@@ -128,13 +128,13 @@ impl Datum {
             && self.quantity == place.quantity
     }
 
-    /// Whether it is a ratio to the first variant.
+    /// Returns whether it is a ratio to the first variant.
     pub fn is_ratio(&self) -> bool {
         self.unit == RATIO
     }
 }
 
-/// `time, without: ratio 2.5, Sun 3/110`.
+/// Displays it like `time, without: ratio 2.5, Sun 3/110`.
 impl std::fmt::Display for Datum {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self {
@@ -170,24 +170,24 @@ impl std::fmt::Display for Datum {
 pub(super) mod tests {
     use super::*;
 
-    /// The thesis with these lines.
+    /// Parses a thesis with these lines.
     pub(in super::super) fn thesis(lines: &str) -> Result<Thesis, String> {
         let head = "table,scene,variant,quantity,machine,value,unit,page\n";
         Thesis::parse(&format!("{head}{lines}"), "a.csv").map_err(|error| error.to_string())
     }
 
     #[test]
-    fn what_comes_with_octray_is_read_and_nothing_else_is_claimed() {
+    fn the_shipped_numbers_are_exactly_the_known_ones() {
         let known = Thesis::read(None).unwrap();
-        let texts: Vec<String> = known.of(Number::Three).map(Datum::to_string).collect();
+        let texts: Vec<String> = known.of(TableNumber::Three).map(Datum::to_string).collect();
         let expected =
             ["2.5", "2.58"].map(|ratio| format!("time, without: ratio {ratio}, Sun 3/110"));
         assert_eq!(texts, expected);
-        assert_eq!(known.of(Number::One).count(), 0);
+        assert_eq!(known.of(TableNumber::One).count(), 0);
     }
 
     #[test]
-    fn values_and_ratios_are_found_where_they_belong() {
+    fn values_and_ratios_are_found_at_their_places() {
         let thesis = thesis(
             "II, figure-19, 2 lights, time, Balance 8000, 61, minutes, 70\n\
              # nothing\n\
@@ -195,7 +195,7 @@ pub(super) mod tests {
         )
         .unwrap();
         let place = Place {
-            table: Number::Two,
+            table: TableNumber::Two,
             scene: "figure-19",
             variant: "2 lights",
             quantity: "time",
@@ -208,7 +208,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_place() {
+    fn mistakes_are_reported_with_their_place() {
         for (lines, expected) in [
             (
                 "X,figure-19,a,time,,1,,",
@@ -222,8 +222,8 @@ pub(super) mod tests {
                 "figure-19, time, a: 2 is there twice",
             ),
         ] {
-            let told = thesis(lines).unwrap_err();
-            assert!(told.contains(expected), "{told}");
+            let message = thesis(lines).unwrap_err();
+            assert!(message.contains(expected), "{message}");
         }
     }
 }

@@ -1,30 +1,32 @@
-//! The tables of what is counted while scenes are traced: I, II, IV, V, VI and VII.
+//! The tables of counts of traced scenes: I, II, IV, V, VI and VII.
 
 use super::agreement;
-use super::number::Number;
-use super::runs::{Runs, Tally};
-use super::subject::{FIGURES, FLAT, Subject, Trial};
+use super::number::TableNumber;
+use super::runs::{Runs, TraceCounts};
+use super::subject::{FIGURES, FLAT, SceneVariant, Subject};
 use super::table::{Base, Draft, Quantity};
 use super::thesis::Thesis;
 use octray_prepare::{PixelsPerRay, TreeKind};
 use octray_render::error::Error;
 
-/// What a column holds, and how it is got.
-type Column = (Quantity, fn(&Tally) -> f64);
+/// The content of a column, and how it is computed.
+type Column = (Quantity, fn(&TraceCounts) -> f64);
 
-const VOXELS: Column = (Quantity::count("voxel tests"), |tally| tally.steps as f64);
-const SURFACES: Column = (Quantity::count("surface tests"), |tally| tally.tests as f64);
-const PIXELS: Column = (Quantity::count("pixels"), |tally| tally.pixels as f64);
-const PRIMARY: Column = (Quantity::count("primary rays"), |tally| {
-    tally.rays.primary as f64
+const VOXELS: Column = (Quantity::count("voxel tests"), |counts| counts.steps as f64);
+const SURFACES: Column = (Quantity::count("surface tests"), |counts| {
+    counts.tests as f64
 });
-const REFLECTED: Column = (agreement::REFLECTED, |tally| tally.rays.reflected as f64);
-const LIGHT_TESTS: Column = (Quantity::count("light tests"), |tally| {
-    tally.rays.shadow as f64
+const PIXELS: Column = (Quantity::count("pixels"), |counts| counts.pixels as f64);
+const PRIMARY: Column = (Quantity::count("primary rays"), |counts| {
+    counts.rays.primary as f64
 });
-const BLOCKED: Column = (agreement::BLOCKED, |tally| tally.rays.blocked as f64);
-const TIME: Column = (Quantity::instructions("time"), |tally| {
-    tally.instructions / 1e6
+const REFLECTED: Column = (agreement::REFLECTED, |counts| counts.rays.reflected as f64);
+const LIGHT_TESTS: Column = (Quantity::count("light tests"), |counts| {
+    counts.rays.shadow as f64
+});
+const BLOCKED: Column = (agreement::BLOCKED, |counts| counts.rays.blocked as f64);
+const TIME: Column = (Quantity::instructions("time"), |counts| {
+    counts.instructions / 1e6
 });
 const MEASURED: Column = (
     Quantity {
@@ -33,29 +35,29 @@ const MEASURED: Column = (
         decimals: 1,
         ..Quantity::count("measured")
     },
-    |tally| tally.seconds * 1e3,
+    |counts| counts.seconds * 1e3,
 );
 
-/// What is said of every time.
+/// The remark on every time.
 const TIME_IS: &str = "Time is in instructions of one processor, estimated from counted events, and the same every \
 time; the thesis's is in minutes. So ratios compare.";
 
-/// Table I.
+/// Makes table I.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
-    let mut trials = Vec::new();
+    let mut variants = Vec::new();
     for subject in [FLAT].into_iter().chain(FIGURES) {
         for (tree, name) in [(TreeKind::Plain, "plain"), (TreeKind::Modified, "modified")] {
-            let trial = Trial {
+            let scene_variant = SceneVariant {
                 tree,
-                ..Trial::of(subject)
+                ..SceneVariant::of(subject)
             };
-            trials.push((trial, name.to_owned()));
+            variants.push((scene_variant, name.to_owned()));
         }
     }
-    let mut draft = draft(runs, Number::One, &[VOXELS, SURFACES], trials)?;
+    let mut draft = draft(runs, TableNumber::One, &[VOXELS, SURFACES], variants)?;
     let fewer = |column: usize| {
         let pairs = draft.lines.chunks(2);
         pairs
@@ -71,23 +73,23 @@ pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
         "Both trees have the depth and the leaves that `octray render` gives them; the thesis's limits are not \
          at hand, nor is the layout of its 2-D scene: `flat` is ours."
             .into(),
-        "A voxel test is a node that a ray comes to, inner ones counted.".into(),
+        "A voxel test is a visit of a node; inner nodes count.".into(),
     ];
     Ok(draft)
 }
 
-/// Table II.
+/// Makes table II.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn two(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
-    let mut trials = Vec::new();
+    let mut variants = Vec::new();
     for subject in FIGURES {
         let all = subject.scene()?.lights.len();
         let sets = [all, 1, 2, 4, 8].map(|lights| lights.min(all));
-        for lights in with_the_thesis(sets, thesis, Number::Two, subject) {
-            let trial = Trial::of(subject).with_lights(lights, all);
-            trials.push((trial, lights.to_string()));
+        for lights in with_the_thesis(sets, thesis, TableNumber::Two, subject) {
+            let scene_variant = SceneVariant::of(subject).with_lights(lights, all);
+            variants.push((scene_variant, lights.to_string()));
         }
     }
     let alone = |(quantity, get): Column| {
@@ -97,7 +99,7 @@ pub fn two(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     let [primary, reflected, light_tests, blocked] =
         [PRIMARY, REFLECTED, LIGHT_TESTS, BLOCKED].map(alone);
     let columns = [primary, reflected, light_tests, blocked, TIME];
-    let mut draft = draft(runs, Number::Two, &columns, trials)?;
+    let mut draft = draft(runs, TableNumber::Two, &columns, variants)?;
     draft.base = Base::OfTable;
     draft.notes = vec![
         TIME_IS.into(),
@@ -109,20 +111,23 @@ pub fn two(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     Ok(draft)
 }
 
-/// Table IV.
+/// Makes table IV.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn four(runs: &Runs<'_>) -> Result<Draft, Error> {
-    let variants = |trial| {
-        let opaque = Trial {
+    let variants = |scene_variant| {
+        let opaque = SceneVariant {
             opaque: true,
-            ..trial
+            ..scene_variant
         };
-        [(opaque, "opaque".into()), (trial, "reflective".into())]
+        [
+            (opaque, "opaque".into()),
+            (scene_variant, "reflective".into()),
+        ]
     };
     let columns = [REFLECTED, LIGHT_TESTS, BLOCKED, TIME];
-    let mut draft = draft(runs, Number::Four, &columns, each(variants))?;
+    let mut draft = draft(runs, TableNumber::Four, &columns, each(variants))?;
     draft.notes = vec![
         TIME_IS.into(),
         "Opaque are the same scenes with nothing that reflects.".into(),
@@ -130,21 +135,26 @@ pub fn four(runs: &Runs<'_>) -> Result<Draft, Error> {
     Ok(draft)
 }
 
-/// Table V.
+/// Makes table V.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn five(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
-    let mut trials = Vec::new();
+    let mut variants = Vec::new();
     for subject in FIGURES {
         let all = subject.scene()?.objects.len();
         let counts = [all / 4, all / 2, all];
-        for few in with_the_thesis(counts, thesis, Number::Five, subject) {
-            let trial = Trial::of(subject).with_surfaces(few, all);
-            trials.push((trial, few.to_string()));
+        for few in with_the_thesis(counts, thesis, TableNumber::Five, subject) {
+            let scene_variant = SceneVariant::of(subject).with_surfaces(few, all);
+            variants.push((scene_variant, few.to_string()));
         }
     }
-    let mut draft = draft(runs, Number::Five, &[REFLECTED, BLOCKED, TIME], trials)?;
+    let mut draft = draft(
+        runs,
+        TableNumber::Five,
+        &[REFLECTED, BLOCKED, TIME],
+        variants,
+    )?;
     draft.notes = vec![
         TIME_IS.into(),
         "Of a figure's surfaces a quarter and a half are taken, evenly; a sphere, a box and a polygon are one \
@@ -154,20 +164,23 @@ pub fn five(runs: &Runs<'_>, thesis: &Thesis) -> Result<Draft, Error> {
     Ok(draft)
 }
 
-/// Table VI.
+/// Makes table VI.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn six(runs: &Runs<'_>) -> Result<Draft, Error> {
-    let variants = |trial| {
-        let larger = Trial {
+    let variants = |scene_variant| {
+        let larger = SceneVariant {
             larger: true,
-            ..trial
+            ..scene_variant
         };
-        [(trial, "as it is".into()), (larger, "larger".into())]
+        [
+            (scene_variant, "as it is".into()),
+            (larger, "larger".into()),
+        ]
     };
     let columns = [PIXELS, REFLECTED, BLOCKED, TIME];
-    let mut draft = draft(runs, Number::Six, &columns, each(variants))?;
+    let mut draft = draft(runs, TableNumber::Six, &columns, each(variants))?;
     draft.notes = vec![
         TIME_IS.into(),
         "Larger is a quarter more columns and rows in the scene file (640 for 512): it shows more around the \
@@ -178,21 +191,21 @@ pub fn six(runs: &Runs<'_>) -> Result<Draft, Error> {
     Ok(draft)
 }
 
-/// Table VII.
+/// Makes table VII.
 ///
 /// # Errors
-/// As [`Runs::tally`].
+/// Those of [`Runs::count`].
 pub fn seven(runs: &Runs<'_>) -> Result<Draft, Error> {
-    let variants = |trial| {
-        let four = Trial {
+    let variants = |scene_variant| {
+        let four = SceneVariant {
             pixels_per_ray: PixelsPerRay::Four,
-            ..trial
+            ..scene_variant
         };
-        [(trial, "1".into()), (four, "4".into())]
+        [(scene_variant, "1".into()), (four, "4".into())]
     };
     let columns = [PRIMARY, REFLECTED, BLOCKED, TIME];
-    let mut draft = draft(runs, Number::Seven, &columns, each(variants))?;
-    // Reflected rays and time, four pixels per ray over one.
+    let mut draft = draft(runs, TableNumber::Seven, &columns, each(variants))?;
+    // Reflected rays and time, four pixels per ray relative to one.
     let [rays, time] = [1, 3].map(|column| {
         let pairs = draft.lines.chunks(2);
         let shares = pairs.map(|pair| pair[1].2[column] / pair[0].2[column]);
@@ -210,18 +223,20 @@ pub fn seven(runs: &Runs<'_>) -> Result<Draft, Error> {
     Ok(draft)
 }
 
-/// The variants of each figure.
-fn each(variants: impl Fn(Trial) -> [(Trial, String); 2]) -> Vec<(Trial, String)> {
+/// Returns the variants of each figure.
+fn each(
+    variants: impl Fn(SceneVariant) -> [(SceneVariant, String); 2],
+) -> Vec<(SceneVariant, String)> {
     (FIGURES.into_iter())
-        .flat_map(|subject| variants(Trial::of(subject)))
+        .flat_map(|subject| variants(SceneVariant::of(subject)))
         .collect()
 }
 
-/// The numbers, and those for which the thesis has something, each once: 1 up to the largest of them.
+/// Returns the given numbers and those for which the thesis has a value, without duplicates, from 1 to the largest.
 fn with_the_thesis<const N: usize>(
     numbers: [usize; N],
     thesis: &Thesis,
-    table: Number,
+    table: TableNumber,
     subject: Subject,
 ) -> Vec<usize> {
     let most = numbers.iter().copied().max().unwrap_or_default();
@@ -236,20 +251,20 @@ fn with_the_thesis<const N: usize>(
     all
 }
 
-/// The table with these columns; where time is taken, that is one more.
+/// Makes the table with these columns, and one more if time is measured.
 fn draft(
     runs: &Runs<'_>,
-    number: Number,
+    number: TableNumber,
     columns: &[Column],
-    trials: Vec<(Trial, String)>,
+    variants: Vec<(SceneVariant, String)>,
 ) -> Result<Draft, Error> {
     let measured = runs.time.then_some(&MEASURED);
     let columns: Vec<&Column> = columns.iter().chain(measured).collect();
     let mut lines = Vec::new();
-    for (trial, variant) in trials {
-        let tally = runs.tally(trial)?;
-        let values = columns.iter().map(|(_, get)| get(&tally)).collect();
-        lines.push((trial.subject.name.into(), variant, values));
+    for (scene_variant, variant) in variants {
+        let counts = runs.count(scene_variant)?;
+        let values = columns.iter().map(|(_, get)| get(&counts)).collect();
+        lines.push((scene_variant.subject.name.into(), variant, values));
     }
     Ok(Draft {
         number,
@@ -267,12 +282,12 @@ mod tests {
     use octray_render::interrupt::Interrupt;
 
     #[test]
-    fn a_scene_as_it_is_is_traced_once_for_all_tables() {
+    fn the_unchanged_scene_is_traced_once_for_all_tables() {
         let interrupt = Interrupt::new();
         let runs = Runs::new(Some((8, 8)), false, &interrupt);
         let nothing = Thesis::default();
         four(&runs).unwrap();
-        // Each figure as it is, and opaque.
+        // Each figure unchanged, and opaque.
         assert_eq!(runs.traced(), 10);
         five(&runs, &nothing).unwrap();
         // A quarter and a half of its surfaces.
@@ -282,12 +297,12 @@ mod tests {
     }
 
     #[test]
-    fn what_the_thesis_has_is_traced_if_there_is_enough() {
+    fn variants_of_the_thesis_are_traced_if_the_scene_is_large_enough() {
         let lines = ["3", "11", "0", "2", "many"]
             .map(|lights| format!("II,figure-20,{lights},time,,1,,\n"))
             .concat();
         let thesis = thesis(&lines).unwrap();
-        let sets = |subject| with_the_thesis([10, 1, 2, 2], &thesis, Number::Two, subject);
+        let sets = |subject| with_the_thesis([10, 1, 2, 2], &thesis, TableNumber::Two, subject);
         assert_eq!(sets(FIGURES[1]), [10, 1, 2, 3]);
         assert_eq!(sets(FIGURES[0]), [10, 1, 2]);
     }

@@ -1,7 +1,7 @@
-//! Exact truth: binary floats of 512 bits.
+//! Exact references: binary floats of 512 bits.
 //!
-//! Sums and products of a few numbers of any format under test are exact in them; quotients, roots
-//! and powers are right to 150 digits.
+//! Sums and products of a few numbers of any tested format are exact; quotients, roots and powers are right to 150
+//! digits.
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -14,7 +14,7 @@ pub type Exact3 = [Exact; 3];
 
 const BITS: usize = 512;
 
-/// The very value of a finite `x`; the largest `f64` for what is infinite or no number.
+/// Returns the exact value of a finite `x`; the largest `f64` for infinity or NaN.
 pub fn exact(x: f64) -> Exact {
     let finite = if x.is_nan() {
         f64::MAX
@@ -25,12 +25,12 @@ pub fn exact(x: f64) -> Exact {
     number.with_precision(BITS).value()
 }
 
-/// The nearest `f64`.
+/// Returns the nearest `f64`.
 pub fn near(x: &Exact) -> f64 {
     x.to_f64().value()
 }
 
-/// The square root; 0 of a negative number.
+/// Returns the square root; 0 for a negative number.
 pub fn root(x: &Exact) -> Exact {
     if *x > Exact::ZERO {
         x.sqrt()
@@ -39,32 +39,32 @@ pub fn root(x: &Exact) -> Exact {
     }
 }
 
-/// The very values of three numbers.
+/// Returns the exact values of three numbers.
 pub fn exact3(v: [f64; 3]) -> Exact3 {
     v.map(exact)
 }
 
-/// The sum.
+/// Returns the sum.
 pub fn add(a: &Exact3, b: &Exact3) -> Exact3 {
     [&a[0] + &b[0], &a[1] + &b[1], &a[2] + &b[2]]
 }
 
-/// The difference.
+/// Returns the difference.
 pub fn sub(a: &Exact3, b: &Exact3) -> Exact3 {
     [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
 }
 
-/// The multiple.
+/// Returns the multiple.
 pub fn times(a: &Exact3, factor: &Exact) -> Exact3 {
     [&a[0] * factor, &a[1] * factor, &a[2] * factor]
 }
 
-/// The dot product.
+/// Returns the dot product.
 pub fn dot(a: &Exact3, b: &Exact3) -> Exact {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-/// The cross product.
+/// Returns the cross product.
 pub fn cross(a: &Exact3, b: &Exact3) -> Exact3 {
     [
         &a[1] * &b[2] - &a[2] * &b[1],
@@ -73,12 +73,12 @@ pub fn cross(a: &Exact3, b: &Exact3) -> Exact3 {
     ]
 }
 
-/// The length.
+/// Returns the length.
 pub fn length(a: &Exact3) -> Exact {
     root(&dot(a, a))
 }
 
-/// The unit vector; the null vector gives itself.
+/// Returns the unit vector; the null vector stays as it is.
 pub fn unit(a: &Exact3) -> Exact3 {
     let length = length(a);
     if length == Exact::ZERO {
@@ -87,7 +87,7 @@ pub fn unit(a: &Exact3) -> Exact3 {
     [&a[0] / &length, &a[1] / &length, &a[2] / &length]
 }
 
-/// The angle between two directions, in radians, 0 to π; π where one of them is null.
+/// Returns the angle between two directions, in radians, 0 to π; π if one of them is null.
 pub fn angle(a: &Exact3, b: &Exact3) -> f64 {
     let sine = length(&cross(a, b));
     let cosine = dot(a, b);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn roots_and_quotients_are_long() {
+    fn roots_and_quotients_have_many_digits() {
         let two = exact(2.0);
         let rest = root(&two) * root(&two) - &two;
         assert!(near(&rest).abs() < 1e-150);

@@ -1,4 +1,4 @@
-//! Shapes to be looked at one at a time.
+//! Scenes of a single shape.
 
 use crate::number::{Number, slack};
 use octray_core::object::{ObjectKind, ObjectRef};
@@ -6,7 +6,7 @@ use octray_core::ray::{Aabb, Ray};
 use octray_core::shape::{Bands, Cone, Cuboid, Outlines, Plane, Polygon, Shapes, Sphere};
 use octray_core::vec3::{Axis, Vec3, vec3};
 
-/// No shapes at all.
+/// Returns no shapes.
 pub fn nothing<'a, S: Number>() -> Shapes<'a, S> {
     Shapes {
         spheres: &[],
@@ -25,7 +25,7 @@ pub fn nothing<'a, S: Number>() -> Shapes<'a, S> {
     }
 }
 
-/// One sphere.
+/// Returns one sphere.
 pub fn sphere<S: Number>(sphere: &Sphere<S>) -> Shapes<'_, S> {
     Shapes {
         spheres: std::slice::from_ref(sphere),
@@ -33,7 +33,7 @@ pub fn sphere<S: Number>(sphere: &Sphere<S>) -> Shapes<'_, S> {
     }
 }
 
-/// One box.
+/// Returns one box.
 pub fn cuboid<S: Number>(cuboid: &Cuboid<S>) -> Shapes<'_, S> {
     Shapes {
         cuboids: std::slice::from_ref(cuboid),
@@ -41,7 +41,7 @@ pub fn cuboid<S: Number>(cuboid: &Cuboid<S>) -> Shapes<'_, S> {
     }
 }
 
-/// One cone.
+/// Returns one cone.
 pub fn cone<S: Number>(cone: &Cone<S>) -> Shapes<'_, S> {
     Shapes {
         cones: std::slice::from_ref(cone),
@@ -49,7 +49,7 @@ pub fn cone<S: Number>(cone: &Cone<S>) -> Shapes<'_, S> {
     }
 }
 
-/// One polygon.
+/// Returns one polygon.
 pub fn polygon<'a, S: Number>(polygon: &'a Polygon<S>, corners: &'a [[S; 2]]) -> Shapes<'a, S> {
     Shapes {
         polygons: std::slice::from_ref(polygon),
@@ -62,12 +62,12 @@ pub fn polygon<'a, S: Number>(polygon: &'a Polygon<S>, corners: &'a [[S; 2]]) ->
     }
 }
 
-/// The only object of its kind.
+/// Returns the only object of its kind.
 pub const fn only(kind: ObjectKind) -> ObjectRef {
     ObjectRef::new(kind, 0)
 }
 
-/// A polygon in a plane, of so few corners that it needs no bands. Its box is left wide open.
+/// Returns a polygon in a plane, with so few corners that it needs no bands. Its box is unbounded.
 pub fn outline<S: Number>(normal: Vec3<S>, offset: S, corners: &[[S; 2]]) -> Polygon<S> {
     let all = vec3(S::MAX, S::MAX, S::MAX);
     Polygon {
@@ -91,12 +91,12 @@ pub fn outline<S: Number>(normal: Vec3<S>, offset: S, corners: &[[S; 2]]) -> Pol
     }
 }
 
-/// The square of side 2 `half` around the origin, as a polygon's corners.
+/// Returns the corners of a square of side 2 `half` around the origin.
 pub fn square<S: Number>(half: f64) -> [[S; 2]; 4] {
     [[-half, -half], [half, -half], [half, half], [-half, half]].map(|c| c.map(S::from_f64))
 }
 
-/// The axis of the largest component.
+/// Returns the axis of the largest component.
 pub fn largest<S: Number>(v: Vec3<S>) -> Axis {
     let (x, y, z) = (v.x.abs(), v.y.abs(), v.z.abs());
     if x >= y && x >= z {
@@ -108,7 +108,7 @@ pub fn largest<S: Number>(v: Vec3<S>) -> Axis {
     }
 }
 
-/// Where a ray meets the only shape of a kind, and the unit normal there.
+/// Returns where a ray hits the only shape of a kind, and the unit normal there.
 pub fn hit<S: Number>(
     shapes: &Shapes<'_, S>,
     kind: ObjectKind,

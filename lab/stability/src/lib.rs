@@ -1,22 +1,22 @@
-//! Where the methods of octray hold, where they degrade, and where they break: every form beside
-//! its rivals, in every arithmetic, against exact truth.
+//! Finds where the methods of octray hold, where they degrade, and where they break: every form and its rivals, in
+//! every arithmetic, against exact references.
 //!
 //! The modules, in the order of the data:
 //!
-//! | module | |
+//! | module | contents |
 //! | --- | --- |
-//! | [`exact`] | truth: numbers of 512 bits |
-//! | [`number`] | the arithmetics under test |
-//! | [`random`] | cases |
-//! | [`fixtures`], [`mock_accelerator`] | shapes one at a time; the rays that the tracer sends on from them |
-//! | [`tally`] | what is measured of a case, and what that is worth: three states |
-//! | [`setting`] | the scene that a value stands for: is it admitted? |
-//! | [`method`] | a method: its forms, the values swept, the bounds |
-//! | [`sweep`] | the methods, a file each |
-//! | [`mod@survey`] | all of them measured; limits |
-//! | [`record`] | the committed record that the tests hold them to |
+//! | [`exact`] | exact references: numbers of 512 bits |
+//! | [`number`] | the tested arithmetics |
+//! | [`random`] | random cases |
+//! | [`fixtures`], [`mock_accelerator`] | scenes of a single shape; the rays that the tracer sends from them |
+//! | [`state`] | the measures of a form, and their rating in three states |
+//! | [`setting`] | the scene that belongs to a value, which decides whether the value is admitted |
+//! | [`method`] | a method: its forms, the swept values, the limits |
+//! | [`sweep`] | the methods, one file each |
+//! | [`mod@survey`] | measures all of them; limits |
+//! | [`record`] | the committed record that tests compare with |
 //!
-//! Truth is what the very numbers say that a method is given: it is not blamed for the rounding of
+//! References are computed from the rounded numbers that a method receives. A method is not blamed for the rounding of
 //! its input, unless a sweep says so.
 
 pub mod exact;
@@ -27,6 +27,6 @@ pub mod number;
 pub mod random;
 pub mod record;
 pub mod setting;
+pub mod state;
 pub mod survey;
 pub mod sweep;
-pub mod tally;

@@ -1,4 +1,4 @@
-//! What rays the tracer sends on from a surface, seen by an accelerator that never finds another.
+//! Records the rays that the tracer sends from a surface, with an accelerator that finds no further object.
 
 use octray_core::accel::{Accelerator, Hit};
 use octray_core::object::ObjectRef;
@@ -50,7 +50,7 @@ impl<S: Scalar> Accelerator<S> for MockAccelerator<S> {
     }
 }
 
-/// A surface that does nothing but reflect.
+/// Returns a surface that only reflects.
 pub fn mirror<S: Scalar>() -> Surface<S> {
     Surface {
         reflect: S::ONE,
@@ -58,7 +58,7 @@ pub fn mirror<S: Scalar>() -> Surface<S> {
     }
 }
 
-/// A surface that lets everything through, from refraction index `ratio` outside to 1 inside.
+/// Returns a surface that transmits everything, from refraction index `ratio` outside to 1 inside.
 pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
     Surface {
         refract: S::ONE,
@@ -67,7 +67,7 @@ pub fn glass<S: Scalar>(ratio: S) -> Surface<S> {
     }
 }
 
-/// The rays that the tracer sends on from where `ray` meets an object of `shapes`.
+/// Returns the rays that the tracer sends from the point where `ray` hits an object of `shapes`.
 pub fn leaving<S: TraceScalar>(
     shapes: Shapes<'_, S>,
     surface: Surface<S>,

@@ -1,4 +1,4 @@
-//! The arithmetics under test.
+//! The tested arithmetics.
 
 use crate::exact::{Exact, Exact3, exact};
 use octray_core::quantize::Quantize;
@@ -7,9 +7,9 @@ use octray_core::scalar::{Approx, Fixed, Fixed64};
 use octray_core::vec3::Vec3;
 use octray_prepare::saturation::{self, PerThread};
 
-/// A number whose exact value can be told.
+/// A number with a known exact value.
 pub trait Number: Quantize {
-    /// Its very value.
+    /// Returns its exact value.
     fn exact(self) -> Exact {
         exact(self.to_f64())
     }
@@ -20,7 +20,7 @@ impl Number for f32 {}
 impl<const N: u32> Number for Approx<N> {}
 impl<const F: u32> Number for Fixed<F, PerThread> {}
 impl Number for Fixed64<PerThread> {
-    // It has more digits than an `f64`.
+    // This format has more digits than an `f64`.
     fn exact(self) -> Exact {
         let bits = self.to_bits();
         let (high, low) = (bits >> 32, bits & 0xffff_ffff);
@@ -44,8 +44,8 @@ pub const ARITHMETICS: [&str; 12] = [
     Fixed::<8, PerThread>::NAME,
 ];
 
-/// The size of a scene in a format's numbers, as quantisation would scale it: a power of two, half
-/// of what fixed point holds; 1 in floats.
+/// Returns the size of a scene in a format's numbers, as quantisation would scale it: a power of two, half of the limit
+/// of fixed point; 1 in floats.
 pub fn span<S: Number>() -> f64 {
     match S::FRACTION_BITS {
         None => 1.0,
@@ -53,34 +53,34 @@ pub fn span<S: Number>() -> f64 {
     }
 }
 
-/// How far hits may lie off their shapes in a scene of size [`span`].
+/// Returns how far hits may be off their shapes in a scene of size [`span`].
 pub fn slack<S: Number>() -> S {
     S::from_f64(S::SLACK * span::<S>())
 }
 
-/// The nearest vector of a format.
+/// Returns the nearest vector of a format.
 pub fn vector<S: Number>(v: [f64; 3]) -> Vec3<S> {
     v.map(S::from_f64).into()
 }
 
-/// A vector's very values.
+/// Returns the exact values of a vector.
 pub fn exactly<S: Number>(v: Vec3<S>) -> Exact3 {
     v.to_array().map(S::exact)
 }
 
-/// A vector as `f64`.
+/// Returns a vector as `f64`.
 pub fn floats<S: Number>(v: Vec3<S>) -> [f64; 3] {
     v.to_array().map(S::to_f64)
 }
 
-/// A unit vector of a format, made by the format's own normalisation, as all directions are.
+/// Returns a unit vector of a format, computed by the format's own normalisation, as all directions are.
 pub fn direction<S: Number>(v: [f64; 3]) -> Vec3<S> {
-    // Directions are normalised from lengths of the scene: there a format has all its digits.
+    // Directions are normalised from lengths of the scene, for which a format has all its digits.
     let scale = span::<S>() / 4.0;
     vector::<S>(v.map(|c| c * scale)).unit().0
 }
 
-/// The ray from `origin` along `direction`.
+/// Returns the ray from `origin` along `direction`.
 pub fn ray<S: Number>(origin: [f64; 3], direction: Vec3<S>) -> Ray<S> {
     Ray {
         origin: vector(origin),
@@ -88,7 +88,7 @@ pub fn ray<S: Number>(origin: [f64; 3], direction: Vec3<S>) -> Ray<S> {
     }
 }
 
-/// What `work` gives, and how many saturations it took on this thread.
+/// Returns the result of `work` and the number of its saturations on this thread.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u32) {
     let (result, count) = saturation::counted(work);
     (result, u32::try_from(count).unwrap_or(u32::MAX))
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_of_this_size_fits() {
+    fn a_scene_of_size_span_fits() {
         fn fits<S: Number>() {
             let room = S::MAX.to_f64() / 1.5;
             assert!(span::<S>() <= room && span::<S>() > room / 2.0);

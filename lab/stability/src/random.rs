@@ -8,18 +8,18 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 pub struct Random(Pcg64Mcg);
 
 impl Random {
-    /// The stream of a seed.
+    /// Returns the stream of a seed.
     pub fn new(seed: u64) -> Self {
         Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
-    /// Evenly from `low` to below `high`.
+    /// Returns a number evenly distributed from `low` to below `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let fraction = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         low + (high - low) * fraction
     }
 
-    /// A unit vector, every direction as likely.
+    /// Returns a unit vector; every direction is equally likely.
     pub fn direction(&mut self) -> [f64; 3] {
         loop {
             let v = [(); 3].map(|()| self.between(-1.0, 1.0));
@@ -30,7 +30,7 @@ impl Random {
         }
     }
 
-    /// A unit vector across another.
+    /// Returns a unit vector perpendicular to another.
     pub fn across(&mut self, v: [f64; 3]) -> [f64; 3] {
         loop {
             let other = self.direction();
@@ -43,17 +43,17 @@ impl Random {
     }
 }
 
-/// The sum.
+/// Returns the sum.
 pub fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// The multiple.
+/// Returns the multiple.
 pub fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
     a.map(|c| c * factor)
 }
 
-/// The cross product.
+/// Returns the cross product.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -62,7 +62,7 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The dot product.
+/// Returns the dot product.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

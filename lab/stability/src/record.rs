@@ -1,14 +1,14 @@
-//! The committed record of where methods hold, degrade and break, and how it is compared.
+//! The committed record of where methods hold, degrade and break, and its comparison with a survey.
 
 use crate::number::ARITHMETICS;
+use crate::state::State;
 use crate::survey::Survey;
-use crate::tally::State;
 use std::collections::BTreeMap;
 
 const HEAD: &str = "method,form,arithmetic,states";
 
-/// A survey's states as text: one line for each method, form and arithmetic, with one
-/// [`State::symbol`] for each value swept.
+/// Writes a survey's states as text: one line per method, form and arithmetic, with one [`State::symbol`] per swept
+/// value.
 pub fn write(survey: &Survey) -> String {
     let mut text = format!("{HEAD}\n");
     for (key, states) in lines(survey) {
@@ -17,8 +17,8 @@ pub fn write(survey: &Survey) -> String {
     text
 }
 
-/// The states that a record has for a method, a form and an arithmetic, one symbol for each value
-/// swept; none if it has no such line.
+/// Returns the recorded states of a method, a form and an arithmetic, one symbol per swept value, or `None` without
+/// such a line.
 pub fn states<'a>(record: &'a str, [method, form, arithmetic]: [&str; 3]) -> Option<&'a str> {
     let key = format!("{method},{form},{arithmetic},");
     record.lines().find_map(|line| line.strip_prefix(&key))
@@ -39,7 +39,7 @@ fn lines(survey: &Survey) -> Vec<(String, String)> {
     lines
 }
 
-/// What differs between a record and a survey, one sentence for each line; none if nothing does.
+/// Returns the differences of a record and a survey, one sentence per line.
 pub fn compare(record: &str, survey: &Survey) -> Vec<String> {
     let mut recorded: BTreeMap<&str, &str> = record
         .lines()

@@ -1,5 +1,4 @@
-//! The scenes that values of sweeps stand for: what is asked of them is whether a format admits
-//! them, and where it puts them.
+//! The scenes that belong to values of sweeps: they decide whether a format admits the value, and how it is scaled.
 
 use octray_core::quantize::Quantize;
 use octray_prepare::RenderSettings;
@@ -14,8 +13,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Nothing, seen from `eye` in a picture of one pixel, so that the pixel is not what is fine
-    /// about it.
+    /// Returns an empty scene, seen from `eye` in a picture of one pixel, so that the pixel is not too fine.
     pub fn empty(eye: Point) -> Self {
         let scene = Scene {
             camera: Camera::Nff {
@@ -44,24 +42,24 @@ impl Setting {
         Self { scene, view }
     }
 
-    /// A shape seen from `eye`.
+    /// Returns a shape seen from `eye`.
     pub fn of(shape: Shape, eye: Point) -> Self {
         Self::empty(eye).and(shape)
     }
 
-    /// A sphere of this radius around the origin, its centre seen from this distance.
+    /// Returns a sphere of this radius around the origin; the eye is at this distance from its centre.
     pub fn sphere(radius: f64, distance: f64) -> Self {
         let centre = [0.0; 3];
         Self::of(Shape::Sphere { centre, radius }, [distance, 0.0, 0.0])
     }
 
-    /// A sphere in a picture whose pixel is this wide, in radians.
+    /// Returns a sphere in a picture whose pixel is this wide, in radians.
     pub fn pixel(angle: f64) -> Self {
         Self::sphere(1.0, 3.0).in_pixels_of(angle)
     }
 
-    /// The same in a picture whose pixel is this wide, in radians. What makes up less of a surface
-    /// than a pixel need not be right: so for rays at a small angle against it.
+    /// Sets the width of a pixel, in radians. Parts of a surface smaller than a pixel need not be right, and so for
+    /// rays at a small angle to it.
     #[must_use]
     pub fn in_pixels_of(mut self, radians: f64) -> Self {
         if let Camera::Nff { angle, .. } = &mut self.scene.camera {
@@ -70,14 +68,14 @@ impl Setting {
         self
     }
 
-    /// The same with one more shape.
+    /// Adds a shape.
     #[must_use]
     pub fn and(mut self, shape: Shape) -> Self {
         self.scene.objects.push(Object { shape, surface: 0 });
         self
     }
 
-    /// The same with one more polygon.
+    /// Adds a polygon.
     #[must_use]
     pub fn and_polygon(mut self, vertices: &[Point]) -> Self {
         let (first, count) = (self.scene.vertices.len() as u32, vertices.len() as u32);
@@ -85,7 +83,7 @@ impl Setting {
         self.and(Shape::Polygon { first, count })
     }
 
-    /// The same where everything reflects this share, so many times.
+    /// Makes everything reflect this share, up to `max_depth` times.
     #[must_use]
     pub fn reflecting(mut self, reflect: f64, max_depth: u32) -> Self {
         self.view.max_depth = max_depth;
@@ -95,12 +93,12 @@ impl Setting {
         self
     }
 
-    /// The setting in a format; none if it would overflow.
+    /// Returns the setting in a format, or `None` if it would overflow.
     pub fn prepare<S: Quantize>(&self) -> Option<Prepared<S>> {
         quantise(&self.scene, &self.view).ok()
     }
 
-    /// Whether a format admits it: nothing overflows, and nothing is too fine.
+    /// Returns whether a format admits it: nothing overflows, and nothing is too fine.
     pub fn admitted<S: Quantize>(&self) -> bool {
         limits::<S>(&self.scene, self.view.max_depth).is_ok()
             && resolution::<S>(&self.scene, &self.view).is_ok()

@@ -1,46 +1,46 @@
-//! Methods measured everywhere, and the limits that come of it.
+//! Measures all methods, and finds their limits.
 
 use crate::method::{About, Method};
 use crate::number::ARITHMETICS;
-use crate::tally::{Cause, State, Tally};
+use crate::state::{Cause, ErrorStats, State};
 use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// What was measured at one value of a sweep, in one arithmetic, of one form.
+/// The measurement of one form at one value of a sweep, in one arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     /// The measures.
-    pub tally: Tally,
-    /// What they are worth.
+    pub errors: ErrorStats,
+    /// Their rating.
     pub state: State,
-    /// What made them so.
+    /// The cause of that rating.
     pub cause: Cause,
-    /// Whether the arithmetic admits the scene that the value stands for.
+    /// Whether the arithmetic admits the scene that belongs to the value.
     pub admitted: bool,
 }
 
-/// One method, measured.
+/// The measurement of one method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// What the method is about.
+    /// The method's description.
     pub about: About,
-    /// By form, by arithmetic, by value.
+    /// By form, then by arithmetic, then by value.
     cells: Vec<Cell>,
 }
 
 impl Outcome {
-    /// The cells of form `form` in arithmetic `arithmetic` of [`ARITHMETICS`], value by value.
+    /// Returns the cells of form `form` in arithmetic `arithmetic` of [`ARITHMETICS`], one per value.
     pub fn row(&self, form: usize, arithmetic: usize) -> &[Cell] {
         let length = self.about.values.len();
         let start = (form * ARITHMETICS.len() + arithmetic) * length;
         &self.cells[start..start + length]
     }
 
-    /// The values around the gentlest one up to which the states are no worse than `state`; none
-    /// if not even there.
+    /// Returns the range of values around the easiest one in which no state is worse than `state`, or `None` if the
+    /// easiest value's state is.
     pub fn limits(
         &self,
         form: usize,
@@ -50,7 +50,8 @@ impl Outcome {
         self.around_home(form, arithmetic, |cell| cell.state <= state)
     }
 
-    /// The values around the gentlest one whose scenes an arithmetic admits; none if not even that.
+    /// Returns the range of values around the easiest one whose scenes an arithmetic admits, or `None` if it does not
+    /// admit that one.
     pub fn admitted(&self, arithmetic: usize) -> Option<RangeInclusive<f64>> {
         self.around_home(0, arithmetic, |cell| cell.admitted)
     }
@@ -73,20 +74,20 @@ impl Outcome {
     }
 }
 
-/// Methods, measured.
+/// The measurements of several methods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// One for each method, in their order.
+    /// One per method, in their order.
     pub outcomes: Vec<Outcome>,
 }
 
-/// How many steps [`survey`] takes.
+/// Returns the number of steps of [`survey`].
 pub fn steps(methods: &[Method]) -> usize {
     methods.iter().map(|m| m.about.values.len()).sum::<usize>() * ARITHMETICS.len()
 }
 
-/// Measures methods on some threads. `proceed` is called before each step; where it says no, all
-/// is given up. The result does not depend on the threads.
+/// Measures methods on several threads. `proceed` is called before each step; if it returns false, the survey is given
+/// up. The result does not depend on the number of threads.
 pub fn survey(
     methods: &[Method],
     threads: NonZeroUsize,
@@ -110,14 +111,14 @@ pub fn survey(
             let value = method.about.values[v];
             mine.push(((m, a, v), method.admits(a, value), method.measure(a, value)));
         }
-        // A poisoned lock means that a thread has panicked, and with it the scope.
+        // A poisoned lock means that a thread has panicked, and then the scope panics too.
         if let Ok(mut done) = done.lock() {
             done.extend(mine);
         }
     };
     thread::scope(|scope| {
         for _ in 1..threads.get().min(jobs.len()) {
-            // Without more threads it takes longer.
+            // If a thread cannot be started, the survey only takes longer.
             if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                 break;
             }
@@ -128,8 +129,8 @@ pub fn survey(
     (done.len() == jobs.len()).then(|| gather(methods, done))
 }
 
-/// A place in a survey (method, arithmetic, value), whether it is admitted, and its forms' tallies.
-type Measured = ((usize, usize, usize), bool, Vec<Tally>);
+/// A place in a survey (method, arithmetic, value), whether it is admitted, and the measures of its forms.
+type Measured = ((usize, usize, usize), bool, Vec<ErrorStats>);
 
 fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
     let mut outcomes: Vec<Outcome> = methods
@@ -137,7 +138,7 @@ fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
         .map(|method| {
             let about = method.about;
             let nothing = Cell {
-                tally: Tally::default(),
+                errors: ErrorStats::default(),
                 state: State::Breaks,
                 cause: Cause::Refused,
                 admitted: false,
@@ -149,15 +150,20 @@ fn gather(methods: &[Method], done: Vec<Measured>) -> Survey {
             }
         })
         .collect();
-    for ((m, a, v), admitted, tallies) in done {
+    for ((m, a, v), admitted, all_errors) in done {
         let outcome = &mut outcomes[m];
         let about = outcome.about;
-        assert_eq!(tallies.len(), about.forms.len(), "forms of {}", about.name);
-        for (form, tally) in tallies.into_iter().enumerate() {
+        assert_eq!(
+            all_errors.len(),
+            about.forms.len(),
+            "forms of {}",
+            about.name
+        );
+        for (form, errors) in all_errors.into_iter().enumerate() {
             let place = (form * ARITHMETICS.len() + a) * about.values.len() + v;
-            let (state, cause) = about.bounds.judge(&tally);
+            let (state, cause) = about.limits.judge(&errors);
             outcome.cells[place] = Cell {
-                tally,
+                errors,
                 state,
                 cause,
                 admitted,

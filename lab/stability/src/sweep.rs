@@ -1,4 +1,4 @@
-//! The sweeps, one file for each method.
+//! The sweeps, one file per method.
 
 pub mod coincident;
 pub mod cone;
@@ -37,5 +37,5 @@ pub static ALL: &[Method] = &[
     Method::of::<coincident::Coincident>(),
     Method::of::<subpixel::SubPixel>(),
     Method::of::<depth::Depth>(),
-    Method::of::<range_limits::Arena>(),
+    Method::of::<range_limits::RangeLimits>(),
 ];

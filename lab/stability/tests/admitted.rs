@@ -1,12 +1,12 @@
-//! The shipped forms never break inside what is admitted: this ties the sweeps to
-//! [`octray_prepare::quantise::limits`] and [`octray_prepare::quantise::resolution`].
+//! The shipped forms never break for admitted values: this connects the sweeps to [`octray_prepare::quantise::limits`]
+//! and [`octray_prepare::quantise::resolution`].
 
 use octray_stability::method::SHIPPED;
 use octray_stability::number::ARITHMETICS;
-use octray_stability::tally::State;
+use octray_stability::state::State;
 use octray_stability::{record, sweep};
 
-/// What is in the record holds: `limits.rs` sees to that.
+/// The test in `limits.rs` ensures that the record is true.
 #[test]
 fn no_shipped_form_breaks_where_its_scene_is_admitted() {
     let recorded = include_str!("../record/limits.csv");
@@ -26,9 +26,9 @@ fn no_shipped_form_breaks_where_its_scene_is_admitted() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
-/// Or the test above would say nothing.
+/// Without this, the test above would prove nothing.
 #[test]
-fn what_is_admitted_ends_where_the_format_does() {
+fn the_admitted_range_ends_where_the_format_does() {
     let sphere = &sweep::ALL[0];
     let largest = |arithmetic: &str| {
         let a = ARITHMETICS.iter().position(|name| *name == arithmetic)?;

@@ -1,4 +1,4 @@
-//! The tables as Rust source.
+//! Writes the tables as Rust source.
 
 use super::BakeOptions;
 use crate::literal::Literal;
@@ -14,7 +14,7 @@ use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Tri
 use octray_core::vec3::{Axis, Vec3};
 use std::fmt::{self, Display, Formatter};
 
-/// All that is written.
+/// The contents of the source.
 pub(super) struct Tables<'a, S: Literal> {
     pub(super) prepared: &'a Prepared<S>,
     pub(super) tree: Tree,
@@ -25,13 +25,13 @@ pub(super) struct Tables<'a, S: Literal> {
     pub(super) options: &'a BakeOptions<'a>,
 }
 
-/// What finds the objects.
+/// The accelerator.
 pub(super) enum Tree {
-    /// A list of all.
+    /// None: a list of all objects.
     None,
-    /// The packed tree's nodes, its tick, and how many nodes can wait while it is walked.
+    /// The compact BVH's nodes, its tick, and the maximum number of nodes on the traversal stack.
     Packed(Vec<u32>, u32, usize),
-    /// The number of words that a tree grown like this takes.
+    /// The device builds the tree: its size in words, and its options.
     Device(usize, accel::BuildOptions),
 }
 
@@ -43,7 +43,7 @@ impl Tree {
         }
     }
 
-    /// Nodes that can wait while it is walked.
+    /// Returns the maximum number of nodes on the traversal stack.
     pub(super) fn nodes(&self) -> usize {
         match self {
             Self::None => 0,
@@ -52,7 +52,7 @@ impl Tree {
         }
     }
 
-    /// Words that it takes, here or on the device.
+    /// Returns the words of the tree, here or on the device.
     pub(super) fn room(&self) -> usize {
         match self {
             Self::Device(words, _) => *words,
@@ -62,7 +62,7 @@ impl Tree {
 }
 
 impl<S: Literal> Tables<'_, S> {
-    /// Bytes of all arrays.
+    /// Returns the bytes of all arrays.
     pub(super) fn bytes(&self) -> usize {
         let scene = &self.prepared.scene;
         size_of_val(&*scene.spheres)
@@ -82,7 +82,7 @@ impl<S: Literal> Tables<'_, S> {
             + size_of_val(self.tree.words())
     }
 
-    /// The links, unless the device makes its own.
+    /// Returns the links, unless the device makes its own.
     fn baked_links(&self) -> &[ObjectRef] {
         match self.tree {
             Tree::Device(..) => &[],
@@ -141,7 +141,7 @@ impl<S: Literal> Display for Tables<'_, S> {
             Tree::None => "accel::BruteForce(&LINKS)".into(),
             Tree::Packed(_, tick, _) => {
                 format!(
-                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"too little room for the walk\"),\n}}"
+                    "match accel::CompactBvh8::new(&WORDS, &LINKS, {tick}) {{\n    Ok(tree) => tree,\n    Err(_) => panic!(\"the traversal stack is too small\"),\n}}"
                 )
             }
             Tree::Device(..) => String::new(),
@@ -170,8 +170,8 @@ impl<S: Literal> Tables<'_, S> {
         };
         let device = match &self.tree {
             Tree::Device(words, accel::BuildOptions { depth, leaf_size }) => format!(
-                "/// Words that the tree takes on the device.\npub const TREE_WORDS: usize = {words};\n\
-                 /// How it is built.\npub const GROWTH: accel::BuildOptions = \
+                "/// The words of the tree on the device.\npub const TREE_WORDS: usize = {words};\n\
+                 /// How the tree is built.\npub const GROWTH: accel::BuildOptions = \
                  accel::BuildOptions {{ depth: {depth}, leaf_size: {leaf_size} }};\n"
             ),
             _ => String::new(),
@@ -194,11 +194,11 @@ impl<S: Literal> Tables<'_, S> {
              /// The scene's name.\npub const NAME: &str = {name:?};\n\
              /// The arithmetic's name.\npub const ARITH: &str = {:?};\n\
              /// Columns.\npub const WIDTH: u32 = {};\n/// Rows.\npub const HEIGHT: u32 = {};\n\
-             /// The most bounces.\npub const MAX_DEPTH: u32 = {};\n\
-             /// Rays of less weight are not traced.\npub const CUT_OFF: S = {};\n\
-             /// How many rays can wait at once.\npub const RAYS: usize = {};\n\
-             /// How many lights there are.\npub const LIGHTS: usize = {};\n\
-             /// How many objects there are.\npub const OBJECTS: usize = {};\n\
+             /// The maximum number of bounces.\npub const MAX_DEPTH: u32 = {};\n\
+             /// Rays of a smaller weight are not traced.\npub const CUT_OFF: S = {};\n\
+             /// The maximum number of queued rays.\npub const RAYS: usize = {};\n\
+             /// The number of lights.\npub const LIGHTS: usize = {};\n\
+             /// The number of objects.\npub const OBJECTS: usize = {};\n\
              {device}\n\
              const fn n(raw: {raw}) -> S {{\n    {}\n}}\n\n\
              const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \

@@ -1,4 +1,4 @@
-//! From the parsed camera to the tracer's, and which pixels can see anything.
+//! Converts the parsed camera to the tracer's, and finds the pixels that can show anything.
 
 use super::{Extent, Placement, vector};
 use crate::settings::RenderSettings;
@@ -7,7 +7,7 @@ use octray_core::frame::{Frame, Region};
 use octray_core::quantize::Quantize;
 use octray_scenes::model::{self, Point, Scene};
 
-/// The camera in scene units: the picture spans −1 … 1 both ways.
+/// The camera in scene units; the picture spans −1 … 1 in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rays {
     origin: Point,
@@ -20,13 +20,13 @@ pub(super) struct Rays {
 const CORNERS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
 impl Rays {
-    /// Whether the rays go side by side.
+    /// Whether the rays are parallel.
     pub(super) const fn is_parallel(&self) -> bool {
         self.parallel
     }
 
-    /// The least distance between neighbouring rays of a picture of this many columns and rows:
-    /// in radians, or in scene units if they are parallel.
+    /// Returns the least distance between neighbouring rays of a picture of this many columns and rows: in radians, or
+    /// in scene units if the rays are parallel.
     pub(super) fn pixel(&self, (width, height): (u32, u32)) -> f64 {
         let steps = [
             times(self.right, 2.0 / f64::from(width)),
@@ -35,7 +35,7 @@ impl Rays {
         if self.parallel {
             return length(steps[0]).min(length(steps[1]));
         }
-        // Narrowest in a corner.
+        // The least angle is in a corner.
         let mut least = f64::INFINITY;
         for [x, y] in CORNERS {
             let ray = add(self.forward, add(times(self.right, x), times(self.up, y)));
@@ -46,7 +46,7 @@ impl Rays {
         least
     }
 
-    /// Places where rays can start.
+    /// Returns the places where rays can start.
     pub(super) fn starts(&self) -> Vec<Point> {
         if !self.parallel {
             return vec![self.origin];
@@ -59,7 +59,7 @@ impl Rays {
 }
 
 impl RenderSettings {
-    /// Columns and rows of the picture of a scene.
+    /// Returns the columns and rows of the picture of a scene.
     pub fn size_of(&self, scene: &Scene) -> (u32, u32) {
         self.size.unwrap_or((scene.width, scene.height))
     }
@@ -132,7 +132,7 @@ impl RenderSettings {
                 projection: Projection::Parallel,
             }
         } else {
-            // No component of their sum leaves [−1, 1].
+            // No component of their sum exceeds [−1, 1].
             let fit = 1.0 / (length(rays.forward) + length(rays.right) + length(rays.up));
             Camera {
                 origin: vector(placement.point(rays.origin)),
@@ -142,7 +142,7 @@ impl RenderSettings {
                 projection: Projection::Perspective,
             }
         };
-        // Directions rounded to a few bits can miss their pixel by several.
+        // Directions rounded to a few bits can miss their pixel by several pixels.
         let margin = |pixels: u32| {
             let bits = S::FRACTION_BITS.unwrap_or(20) as i32;
             1.0 + (f64::from(pixels) * 2f64.powi(3 - bits)).ceil()
@@ -160,8 +160,8 @@ impl RenderSettings {
     }
 }
 
-/// The rectangle of pixels that the objects' box is projected into; all of them if it reaches
-/// behind the eye's plane.
+/// Returns the rectangle of pixels onto which the objects' box is projected; all pixels if the box extends behind the
+/// eye's plane.
 fn active(
     rays: &Rays,
     extent: &Extent,

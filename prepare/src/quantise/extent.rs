@@ -1,10 +1,10 @@
-//! How far a scene reaches.
+//! The extent of a scene.
 
 use super::camera::Rays;
 use octray_scenes::model::{Point, Scene, Shape};
 
-/// The box around all objects, and the box around all that takes part in the arithmetic: objects,
-/// lights and the places where rays start. In scene units.
+/// The box around all objects, and the box around everything that takes part in the arithmetic: objects, lights and the
+/// places where rays start. In scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Low and high corner of the objects' box; inverted if there are none.
@@ -14,7 +14,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Of a scene and the rays that look at it.
+    /// Returns the extent of a scene and its view.
     pub(super) fn of(scene: &Scene, rays: &Rays) -> Self {
         let nothing = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let mut objects = nothing;
@@ -36,14 +36,14 @@ impl Extent {
         }
     }
 
-    /// The largest distance between two points.
+    /// Returns the largest distance between two points.
     pub fn diagonal(&self) -> f64 {
         let [low, high] = self.everything;
         let [x, y, z] = [0, 1, 2].map(|i| high[i] - low[i]);
         x.hypot(y).hypot(z)
     }
 
-    /// The middle of everything, or of the objects if there are any.
+    /// Returns the middle of the objects; that of everything if asked for or if there are no objects.
     pub fn middle(&self, everything: bool) -> Point {
         let [low, high] = if everything || self.objects[0][0] > self.objects[1][0] {
             self.everything
@@ -61,7 +61,7 @@ fn include(bounds: &mut [Point; 2], p: Point) {
     }
 }
 
-/// The box around a shape.
+/// Returns the box around a shape.
 pub(super) fn shape_box(scene: &Scene, shape: &Shape) -> [Point; 2] {
     match *shape {
         Shape::Sphere { centre, radius } => {
@@ -77,7 +77,7 @@ pub(super) fn shape_box(scene: &Scene, shape: &Shape) -> [Point; 2] {
             top,
             top_radius,
         } => {
-            // A circle of radius r across the axis a reaches r √(1 − aᵢ²) along axis i.
+            // A circle of radius r perpendicular to the axis a extends r √(1 − aᵢ²) along axis i.
             let axis = [0, 1, 2].map(|i| top[i] - base[i]);
             let square: f64 = axis.iter().map(|a| a * a).sum();
             let reach = axis.map(|a| (1.0 - a * a / square).max(0.0).sqrt());

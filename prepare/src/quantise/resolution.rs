@@ -1,5 +1,5 @@
-//! What is too fine for a format. A scene that fits a format can still be finer than what the
-//! format's directions tell apart: then methods break (`octray stability` shows where).
+//! Finds what is too fine for a format. A scene that fits a format can still be finer than the format's directions can
+//! resolve; then methods break (`octray stability` shows where).
 
 use super::camera::{add, length, times};
 use super::extent::{Extent, shape_box};
@@ -8,16 +8,16 @@ use octray_core::quantize::Quantize;
 use octray_scenes::model::{Point, Scene, Shape};
 use std::fmt;
 
-/// Something that a format is too coarse for.
+/// Something that is too fine for a format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TooFine {
     /// The format's name.
     pub format: &'static str,
-    /// What is too fine, and what its size is a share of.
+    /// What is too fine, and the whole that its size is a share of.
     pub what: String,
     /// The share.
     pub value: f64,
-    /// The least share that the format resolves.
+    /// The smallest share that the format resolves.
     pub limit: f64,
 }
 
@@ -34,24 +34,24 @@ impl fmt::Display for TooFine {
 
 impl std::error::Error for TooFine {}
 
-/// The least share of a scene's size, and the least angle in radians, that format `S` resolves: a
-/// few times what its hits may be off by.
+/// Returns the smallest share of a scene's size, and the smallest angle in radians, that format `S` resolves: four
+/// times the error of its hits.
 pub const fn grain<S: Quantize>() -> f64 {
     4.0 * S::SLACK
 }
 
-/// So many times that a pixel has to be where roots are approximate, if there are tips of cones.
+/// With approximate roots and tips of cones, a pixel must be larger by this factor.
 const TIP: f64 = 2.5;
 
-/// What errors of light may add up to along a path: eight grey levels.
+/// The largest sum of light errors along a path: eight grey levels.
 const LIGHT: f64 = 8.0 / 255.0;
 /// The weight below which a ray's light is less than half a grey level.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
-/// Checks that format `S` resolves the pixels of a view, the eye's distance from spheres, the
-/// objects, and the light of repeated reflections: within that, no method breaks.
+/// Checks that format `S` resolves the pixels of a view, the eye's distance from spheres, the objects, and the light of
+/// repeated reflections. Within these limits no method breaks.
 ///
-/// Gaps between objects are not looked at: they should be no smaller than objects may be.
+/// Gaps between objects are not checked; they should be no smaller than the smallest allowed object.
 ///
 /// # Errors
 /// The first thing that is too fine.
@@ -98,13 +98,13 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
         let rays = path(surface.reflect.max(surface.refract), settings.max_depth);
         check(LIGHT / rays, 0.5f64.powi(bits as i32 + 1), &|| {
             let i = i + 1;
-            format!("what each of {rays:.0} rays by way of surface {i} may err by")
+            format!("the error allowed to each of {rays:.0} rays via surface {i}")
         })?;
     }
     Ok(())
 }
 
-/// How many rays of a path count if a surface passes on this share each time.
+/// Returns the number of rays of a path that count if a surface passes on this share each time.
 fn path(share: f64, max_depth: u32) -> f64 {
     let bounces = if share >= 1.0 {
         f64::INFINITY
@@ -118,7 +118,7 @@ fn has_tip(shape: &Shape) -> bool {
     matches!(shape, Shape::Cone { base_radius, top_radius, .. } if base_radius.min(*top_radius) == 0.0)
 }
 
-/// The radius of a sphere, the larger one of a cone, half the largest side of anything else.
+/// Returns the radius of a sphere, the larger radius of a cone, or half the largest side of anything else.
 fn size(scene: &Scene, shape: &Shape) -> f64 {
     match *shape {
         Shape::Sphere { radius, .. } => radius,

@@ -1,4 +1,4 @@
-//! From parsed shapes to the tracer's: what can be worked out beforehand is, in `f64`.
+//! Converts parsed shapes to the tracer's. Everything that can be computed beforehand is, in `f64`.
 
 use super::camera::{add, cross, dot, length, times, unit};
 use super::extent::shape_box;
@@ -55,7 +55,7 @@ impl<S: Quantize> Quantised<S> {
         });
     }
 
-    /// A box of the scene in the format's numbers, rounded outward, wider by slack and `more`.
+    /// Returns a box of the scene in the format's numbers, rounded outward and widened by slack and `more`.
     fn bounds(&self, [low, high]: [Point; 2], more: f64, place: &Placement) -> Aabb<S> {
         let more = place.length(more) + self.slack.to_f64();
         Aabb {
@@ -100,8 +100,8 @@ impl<S: Quantize> Quantised<S> {
         }
     }
 
-    /// Adds a triangle or a polygon. The plane goes through the vertices' middle along Newell's
-    /// normal; vertices that lie off it (a file has few digits) widen the box.
+    /// Adds a triangle or a polygon. Its plane passes through the vertices' middle along Newell's normal; vertices that
+    /// are off the plane (a file has few digits) widen the box.
     fn polygon(&mut self, scene: &Scene, first: u32, count: u32, place: &Placement) -> ObjectKind {
         let vertices = &scene.vertices[first as usize..][..count as usize];
         let middle = times(
@@ -125,7 +125,7 @@ impl<S: Quantize> Quantised<S> {
         } else {
             Axis::Z
         };
-        // The offset goes with the normal as it is rounded, not as it is.
+        // The offset belongs to the rounded normal.
         let rounded: Vec3<S> = vector(normal);
         let offset = dot(rounded.to_array().map(S::to_f64), place.point(middle));
         let plane = Plane {
@@ -139,7 +139,7 @@ impl<S: Quantize> Quantised<S> {
             [S::from_f64(p[u as usize]), S::from_f64(p[v as usize])]
         };
         let shape = Shape::Polygon { first, count };
-        // Rounding tilts the plane by up to a step per length.
+        // Rounding tilts the plane by up to one step per unit of length.
         let bounds = self.bounds(shape_box(scene, &shape), 2.0 * off_plane, place);
         if let [a, b, c] = vertices {
             self.triangles.push(Triangle {
@@ -162,8 +162,8 @@ impl<S: Quantize> Quantised<S> {
         ObjectKind::Polygon
     }
 
-    /// Cuts the polygon whose corners were added last into bands, as many as half its edges, fewer
-    /// if most edges pass through most of them.
+    /// Divides the polygon whose corners were added last into bands: half as many as its edges, or fewer if most edges
+    /// cross most bands.
     fn bands(&mut self, bounds: &Aabb<S>, v: Axis, first: usize) -> Bands<S> {
         let corners = &self.corners[first..];
         let low = bounds.low[v];
@@ -217,7 +217,7 @@ impl<S: Quantize> Quantised<S> {
             exponent,
             least_area: S::from_f64(local * local * 1e-9),
         });
-        // Their lengths weigh in the interpolation; only their ratios count.
+        // Their lengths are weights of the interpolation; only their ratios count.
         let normals = &scene.normals[normal as usize..][..count as usize];
         let longest = normals.iter().map(|n| length(*n)).fold(0.0, f64::max);
         self.normals.extend(
@@ -228,7 +228,7 @@ impl<S: Quantize> Quantised<S> {
     }
 }
 
-/// A radius must not vanish in rounding.
+/// Rounds a radius; it must not become 0.
 fn at_least_one_step<S: Quantize>(x: f64) -> S {
     let near = S::from_f64(x);
     if near > S::ZERO { near } else { up(x) }

@@ -1,5 +1,4 @@
-//! The command `octray`, as its package has it: for tests, which are only given the programs of
-//! their own package.
+//! The command `octray` as in its package, because tests can only run programs of their own package.
 
 fn main() -> std::process::ExitCode {
     octray::main(std::env::args_os())

@@ -1,5 +1,5 @@
-//! `oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray 1|4] [--samples K] [--max-depth D]
-//! [--cut-off C]`: renders a scene with the oracle, writes the picture and prints the rays by kind.
+//! `oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray 1|4] [--samples K] [--max-depth D] [--cut-off C]`: renders a
+//! scene with the oracle, writes the picture and prints the numbers of rays by kind.
 
 use std::error::Error;
 use std::str::FromStr;
@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A number of the command line.
+/// Parses a number of the command line.
 fn number<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
         .map_err(|_| format!("{text:?} is not such a number\n{USAGE}"))

@@ -1,9 +1,9 @@
-//! Both cameras: a point of the picture to a ray.
+//! Both cameras: they turn a point of the picture into a ray.
 
 use super::read::View;
 use super::vector::{Ray, V3};
 
-/// A camera for a picture of a certain size.
+/// A camera for a picture of a given size.
 #[derive(Debug)]
 pub(super) struct Camera {
     width: u32,
@@ -21,7 +21,7 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The camera of a view, with a size in place of the file's if given.
+    /// Returns the camera of a view, with another size than the file's if given.
     pub(super) fn new(view: &View, size: Option<(u32, u32)>) -> Self {
         let (width, height) = size.unwrap_or((view.width, view.height));
         assert!(width > 0 && height > 0, "the picture has no pixels");
@@ -66,13 +66,13 @@ impl Camera {
         }
     }
 
-    /// Width and height in pixels.
+    /// Returns width and height in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
 
-    /// The ray through a point of the picture: `x` from the left edge, `y` from the top, in pixels,
-    /// so that the centre of the first pixel is (½, ½).
+    /// Returns the ray through a point of the picture: `x` from the left edge, `y` from the top, in pixels. The centre
+    /// of the first pixel is (½, ½).
     pub(super) fn ray(&self, x: f64, y: f64) -> Ray {
         let across = self.right * (x - f64::from(self.width) / 2.0)
             + self.up * (f64::from(self.height) / 2.0 - y);

@@ -11,9 +11,9 @@ pub(super) struct Cone {
     /// Unit vector from the base to the top.
     axis: V3,
     height: f64,
-    /// At the base.
+    /// The radius at the base.
     radius: f64,
-    /// Growth of the radius by unit of height.
+    /// Growth of the radius per unit of height.
     slope: f64,
 }
 
@@ -30,12 +30,11 @@ impl Cone {
         }
     }
 
-    /// The least t > 0 at which a ray meets the side.
+    /// Returns the least t > 0 at which a ray hits the side.
     ///
-    /// Solves |p + t·q|² = (r + t·g)², where p and q are the parts of origin and direction across
-    /// the axis, r the cone's radius at the origin's height and g its growth along the ray. The
-    /// origin is first moved to the ray's closest approach to the cone's middle, where the numbers
-    /// are small.
+    /// Solves |p + t·q|² = (r + t·g)², where p and q are the parts of origin and direction perpendicular to the axis, r
+    /// is the cone's radius at the origin's height and g its growth along the ray. Before that, the origin is moved to
+    /// the ray's closest approach to the cone's middle, where the numbers are small.
     pub(super) fn hit(&self, ray: &Ray) -> Option<f64> {
         let middle = self.base + self.axis * (self.height / 2.0);
         let moved = (middle - ray.origin).dot(ray.direction);
@@ -66,7 +65,7 @@ impl Cone {
         least_positive([on_side(w / a), on_side(c / w)])
     }
 
-    /// The outward normal at a point of the side.
+    /// Returns the outward normal at a point of the side.
     pub(super) fn normal(&self, point: V3) -> V3 {
         let from_base = point - self.base;
         let radial = from_base - self.axis * from_base.dot(self.axis);

@@ -2,12 +2,12 @@
 
 use super::vector::{Ray, V3};
 
-/// A planar polygon, or a patch if it has normals at its vertices.
+/// A planar polygon, or a patch if it has vertex normals.
 #[derive(Debug)]
 pub(super) struct Polygon {
     vertices: Vec<V3>,
     normals: Option<Vec<V3>>,
-    /// Unit normal of the plane, by the right hand about the vertices' order.
+    /// Unit normal of the plane; the vertices turn around it by the right-hand rule.
     pub(super) normal: V3,
 }
 
@@ -29,17 +29,16 @@ impl Polygon {
         }
     }
 
-    /// The t > 0 at which a ray meets the polygon; a ray in its plane does not.
+    /// Returns the t > 0 at which a ray hits the polygon; a ray in its plane does not.
     pub(super) fn hit(&self, ray: &Ray) -> Option<f64> {
         let t = self.normal.dot(self.vertices[0] - ray.origin) / self.normal.dot(ray.direction);
         (t > 0.0 && t.is_finite() && self.contains(ray.at(t))).then_some(t)
     }
 
-    /// Whether a point of the plane is inside, by the even-odd rule.
+    /// Returns whether a point of the plane is inside, by the even-odd rule.
     ///
-    /// The polygon is projected along the largest component of its normal. An edge counts if the
-    /// line from the point towards growing u crosses it; it owns its lower end (in v) and not its
-    /// upper one.
+    /// The polygon is projected along the largest component of its normal. An edge counts if the line from the point in
+    /// the direction of growing u crosses it. It owns its lower end (in v) but not its upper end.
     fn contains(&self, point: V3) -> bool {
         let (u, v) = match self.normal.largest_axis() {
             0 => (1, 2),
@@ -57,8 +56,8 @@ impl Polygon {
         edges(&self.vertices).filter(crosses).count() % 2 == 1
     }
 
-    /// The unit normal for the light at a point: on a patch, interpolated over the triangle of the
-    /// fan that holds the point, or comes nearest to holding it.
+    /// Returns the unit normal for shading at a point: on a patch, interpolated over the triangle of the fan that
+    /// contains the point or is nearest to it.
     pub(super) fn shading_normal(&self, point: V3) -> V3 {
         let Some(normals) = &self.normals else {
             return self.normal;
@@ -97,7 +96,7 @@ impl Polygon {
     }
 }
 
-/// The edges of a closed outline.
+/// Returns the edges of a closed outline.
 fn edges(vertices: &[V3]) -> impl Iterator<Item = (V3, V3)> + '_ {
     vertices
         .iter()

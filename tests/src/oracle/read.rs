@@ -1,4 +1,4 @@
-//! The reader of scene files, both dialects; valid files only.
+//! The reader of scene files in both dialects; valid files only.
 
 use super::cone::Cone;
 use super::polygon::Polygon;
@@ -15,18 +15,18 @@ pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
 }
 
-/// Where the picture is taken from.
+/// The camera's position and direction.
 #[derive(Debug)]
 pub(super) struct View {
     pub(super) from: V3,
-    /// The NFF camera's; without it the thesis camera is meant.
+    /// The NFF camera's target; the camera is the thesis's if `None`.
     pub(super) aim: Option<Aim>,
     pub(super) parallel: bool,
     pub(super) width: u32,
     pub(super) height: u32,
 }
 
-/// What the NFF camera adds to a viewpoint; the angle is in degrees.
+/// The part of the NFF camera beside the viewpoint; the angle is in degrees.
 #[derive(Debug)]
 pub(super) struct Aim {
     pub(super) at: V3,
@@ -38,11 +38,11 @@ pub(super) struct Aim {
 #[derive(Debug)]
 pub(super) struct Light {
     pub(super) position: V3,
-    /// Brightness by channel.
+    /// Brightness per channel.
     pub(super) colour: V3,
 }
 
-/// How a surface answers light.
+/// The optical properties of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
     pub(super) ambient: V3,
@@ -174,7 +174,7 @@ pub(super) fn scene(source: &str) -> Scene {
     }
 }
 
-/// `f r g b Kd Ks Shine T ior`.
+/// Reads `f r g b Kd Ks Shine T ior`.
 fn nff_surface(n: &[f64]) -> Surface {
     Surface {
         ambient: V3::ZERO,
@@ -187,7 +187,7 @@ fn nff_surface(n: &[f64]) -> Surface {
     }
 }
 
-/// `f ar ag ab dr dg db sr sg sb shine reflect refract [ior]`.
+/// Reads `f ar ag ab dr dg db sr sg sb shine reflect refract [ior]`.
 fn thesis_surface(n: &[f64]) -> Surface {
     Surface {
         ambient: V3::from_slice(n),
@@ -200,7 +200,7 @@ fn thesis_surface(n: &[f64]) -> Surface {
     }
 }
 
-/// A word as a number; names such as `inf` are words.
+/// Parses a word as a number; names such as `inf` are words.
 fn number(word: &str) -> Option<f64> {
     let starts_as_number = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     if starts_as_number {
@@ -210,7 +210,7 @@ fn number(word: &str) -> Option<f64> {
     }
 }
 
-/// A number of pixels.
+/// Converts a number of pixels.
 fn whole(n: f64) -> u32 {
     assert!(
         n >= 1.0 && n <= f64::from(u32::MAX) && n.fract() == 0.0,

@@ -1,4 +1,4 @@
-//! Objects: where a ray meets them, and which way their surface faces there.
+//! Objects: where a ray hits them, and the normals there.
 
 use super::cone::Cone;
 use super::polygon::Polygon;
@@ -10,7 +10,7 @@ use super::vector::{Ray, V3};
 pub(super) struct Object {
     pub(super) shape: Shape,
     pub(super) surface: Surface,
-    /// The centre and radius of a sphere around the shape, slightly too large; only for speed.
+    /// Centre and radius of a sphere around the shape, slightly too large; it only saves time.
     bound: (V3, f64),
 }
 
@@ -23,14 +23,14 @@ pub(super) enum Shape {
     Polygon(Polygon),
 }
 
-/// Which way a surface faces at a point of it.
+/// The orientation of a surface at a point of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facing {
-    /// The outward normal of the shape itself.
+    /// The outward geometric normal.
     pub(super) geometric: V3,
-    /// The normal for the light; differs from the geometric one on patches only.
+    /// The normal for shading; it differs from the geometric one only on patches.
     pub(super) shading: V3,
-    /// Whether the surface has an inside, so that a ray along the geometric normal is leaving it.
+    /// Whether the surface has an inside, so that a ray along the geometric normal leaves it.
     pub(super) solid: bool,
 }
 
@@ -46,7 +46,7 @@ impl Object {
         }
     }
 
-    /// The least t with 0 < t < `limit` at which a ray meets the object.
+    /// Returns the least t with 0 < t < `limit` at which a ray hits the object.
     pub(super) fn hit(&self, ray: &Ray, limit: f64) -> Option<f64> {
         let (centre, radius) = self.bound;
         let to_centre = centre - ray.origin;
@@ -61,7 +61,7 @@ impl Object {
 }
 
 impl Shape {
-    /// The least t > 0 at which a ray meets the shape.
+    /// Returns the least t > 0 at which a ray hits the shape.
     pub(super) fn hit(&self, ray: &Ray) -> Option<f64> {
         match self {
             Self::Sphere { centre, radius } => hit_sphere(*centre, *radius, ray),
@@ -71,7 +71,7 @@ impl Shape {
         }
     }
 
-    /// Which way the surface faces at a point of it.
+    /// Returns the orientation of the surface at a point of it.
     pub(super) fn facing(&self, point: V3) -> Facing {
         let solid = |normal| Facing {
             geometric: normal,
@@ -100,8 +100,8 @@ impl Shape {
     }
 }
 
-/// The sphere's discriminant from the part of the centre's direction across the ray, and the nearer
-/// root without a difference of like numbers.
+/// Computes the sphere's discriminant from the part of the centre's direction perpendicular to the ray, and the nearer
+/// root without a difference of similar numbers.
 fn hit_sphere(centre: V3, radius: f64, ray: &Ray) -> Option<f64> {
     let to_centre = centre - ray.origin;
     let middle = to_centre.dot(ray.direction);
@@ -116,7 +116,7 @@ fn hit_sphere(centre: V3, radius: f64, ray: &Ray) -> Option<f64> {
     least_positive([q, product / q])
 }
 
-/// The slab method; the box is closed, so a ray in the plane of a face meets it.
+/// Applies the slab method; the box is closed, so a ray in the plane of a face hits it.
 fn hit_cuboid(centre: V3, half: V3, ray: &Ray) -> Option<f64> {
     let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
@@ -139,7 +139,7 @@ fn hit_cuboid(centre: V3, half: V3, ray: &Ray) -> Option<f64> {
     }
 }
 
-/// The normal of the face nearest to a point.
+/// Returns the normal of the face nearest to a point.
 fn cuboid_normal(centre: V3, half: V3, point: V3) -> V3 {
     let p = point - centre;
     let outside = V3::new(p.x.abs() - half.x, p.y.abs() - half.y, p.z.abs() - half.z);
@@ -157,7 +157,7 @@ fn cuboid_normal(centre: V3, half: V3, point: V3) -> V3 {
     }
 }
 
-/// The lesser of those roots that are numbers and above 0.
+/// Returns the lesser of those roots that are numbers and above 0.
 pub(super) fn least_positive(roots: [f64; 2]) -> Option<f64> {
     roots
         .into_iter()

@@ -1,4 +1,4 @@
-//! The oracle itself, tested against what can be worked out by hand.
+//! Tests of the oracle against numbers computed by hand.
 
 mod light;
 mod shapes;

@@ -1,11 +1,11 @@
-//! Light: what a ray brings back.
+//! Light along rays.
 
 use super::Counts;
 use super::read::Scene;
 use super::vector::{Ray, V3};
 
-/// How far off a surface a ray starts, in parts of the coordinates' size; and how far before a
-/// light a shadow ray ends, in parts of its length.
+/// The distance by which a ray starts off a surface, relative to the coordinates' size, and by which a shadow ray ends
+/// before a light, relative to its length.
 const APART: f64 = 1e-9;
 
 /// A scene with the limits of its recursion.
@@ -15,17 +15,17 @@ pub(super) struct Tracer<'a> {
     pub(super) cut_off: f64,
 }
 
-/// The point where a ray met an object.
+/// The point where a ray hit an object.
 struct Meeting {
     point: V3,
-    /// The size of the coordinates the point was computed from.
+    /// The size of the coordinates from which the point was computed.
     size: f64,
-    /// The object's own normal at the point.
+    /// The geometric normal at the point.
     geometric: V3,
 }
 
 impl Tracer<'_> {
-    /// What a ray from the eye brings, not clamped.
+    /// Returns the light along a primary ray, not clamped.
     pub(super) fn eye_ray(&self, ray: &Ray, counts: &mut Counts) -> V3 {
         if self.cut_off > 1.0 {
             return V3::ZERO;
@@ -34,7 +34,7 @@ impl Tracer<'_> {
         self.light_along(ray, 1.0, 0, counts)
     }
 
-    /// The object a ray meets first, and how far away.
+    /// Returns the object that a ray hits first, and its distance.
     pub(super) fn nearest(&self, ray: &Ray) -> Option<(usize, f64)> {
         let mut nearest = None;
         let mut limit = f64::INFINITY;
@@ -47,7 +47,7 @@ impl Tracer<'_> {
         nearest
     }
 
-    /// What a ray of a certain weight, after `depth` bounces, brings.
+    /// Returns the light along a ray of this weight after `depth` bounces.
     fn light_along(&self, ray: &Ray, weight: f64, depth: u32, counts: &mut Counts) -> V3 {
         let Some((index, t)) = self.nearest(ray) else {
             return self.scene.background;
@@ -124,7 +124,7 @@ impl Tracer<'_> {
         sum
     }
 
-    /// Whether any surface lies between a point and a light.
+    /// Returns whether any surface lies between a point and a light.
     fn blocked(&self, meeting: &Meeting, light: V3, counts: &mut Counts) -> bool {
         counts.shadow += 1;
         let start = meeting.leave(light - meeting.point).origin;
@@ -141,17 +141,15 @@ impl Tracer<'_> {
 }
 
 impl Meeting {
-    /// The ray that goes from here in a direction; it starts off the surface, on the side it leaves
-    /// to.
+    /// Returns the ray from this point in a direction; it starts off the surface, on the side of its direction.
     fn leave(&self, direction: V3) -> Ray {
         let off = (self.size * APART).copysign(self.geometric.dot(direction));
         Ray::new(self.point + self.geometric * off, direction)
     }
 }
 
-/// The direction in which a ray goes on behind a surface, by Snell's law: sin θ1 = `kn` · sin θ2,
-/// with `kn` = n2/n1. None at total internal reflection. The unit normal faces the unit incoming
-/// direction.
+/// Returns the direction of the transmitted ray by Snell's law: sin θ1 = `kn` · sin θ2, with `kn` = n2/n1, or `None` at
+/// total internal reflection. The unit normal faces the unit incoming direction.
 pub(super) fn refract(incoming: V3, normal: V3, kn: f64) -> Option<V3> {
     let cosine1 = -incoming.dot(normal);
     let along = (incoming + normal * cosine1) * (1.0 / kn);

@@ -37,7 +37,7 @@ impl V3 {
         Self { x, y, z }
     }
 
-    /// The first three numbers of a slice.
+    /// Returns the first three numbers of a slice.
     pub(super) fn from_slice(numbers: &[f64]) -> Self {
         Self::new(numbers[0], numbers[1], numbers[2])
     }
@@ -66,12 +66,12 @@ impl V3 {
         Self::new(f(self.x), f(self.y), f(self.z))
     }
 
-    /// Channel times channel.
+    /// Returns the product of each channel.
     pub(super) fn times(self, o: Self) -> Self {
         Self::new(self.x * o.x, self.y * o.y, self.z * o.z)
     }
 
-    /// The axis of the largest magnitude; the first of equals.
+    /// Returns the axis of the largest magnitude; of equal ones the first.
     pub(super) fn largest_axis(self) -> usize {
         let m = self.map(f64::abs);
         if m.x >= m.y && m.x >= m.z {

@@ -1,5 +1,4 @@
-//! What kernels are called with: the same on every board, and as nearly as its numbers allow in every
-//! arithmetic.
+//! The inputs of kernels: the same on every board, and in every arithmetic as nearly the same as its numbers allow.
 
 use crate::baked::{S, SCENE};
 use octray_core::object::ObjectRef;
@@ -7,25 +6,25 @@ use octray_core::ray::Ray;
 use octray_core::scalar::{Ratio, Scalar};
 use octray_core::vec3::{Vec3, vec3};
 
-/// How many numbers.
+/// The number of numbers.
 const COUNT: u32 = 64;
-/// Rays to an object: so many across, and so many down.
+/// The rays to an object form a grid of this many columns and rows.
 const ACROSS: i32 = 8;
 
-/// How wide the rays to an object fan out, in eighths of the object's box.
+/// The width of the rays to an object, in eighths of the object's box.
 pub(super) type Fan = i32;
-/// So that some miss.
+/// So wide that some rays miss.
 pub(super) const WIDE: Fan = 10;
-/// So that all hit a sphere, where light from near their origin falls on it.
+/// So narrow that all rays hit a sphere, where light from near their origin falls on it.
 pub(super) const NARROW: Fan = 3;
 
-/// The `i`th number, of ¼ to 1 by multiples of 2⁻¹⁰: far from overflow in every format.
+/// Returns the `i`th number, from ¼ to 1 in multiples of 2⁻¹⁰: no format overflows.
 fn number(i: u32) -> S {
     let bits = i.wrapping_add(1).wrapping_mul(0x9e37_79b9) >> 16;
     S::ratio(256 + (bits % 769) as i32, S::whole_reciprocal(1024))
 }
 
-/// The same with a sign.
+/// Returns the same with a sign.
 fn signed(i: u32) -> S {
     let number = number(i);
     if i.wrapping_mul(0x85eb_ca6b) >> 31 == 0 {
@@ -35,23 +34,23 @@ fn signed(i: u32) -> S {
     }
 }
 
-/// Positive numbers.
+/// Returns positive numbers.
 pub(super) fn numbers() -> impl Iterator<Item = S> {
     (0..COUNT).map(number)
 }
 
-/// Pairs of numbers of either sign.
+/// Returns pairs of numbers of either sign.
 pub(super) fn pairs() -> impl Iterator<Item = (S, S)> {
     (0..COUNT).map(|i| (signed(2 * i), signed(2 * i + 1)))
 }
 
-/// Pairs of vectors.
+/// Returns pairs of vectors.
 pub(super) fn vectors() -> impl Iterator<Item = (Vec3<S>, Vec3<S>)> {
     let vector = |i| vec3(signed(3 * i), signed(3 * i + 1), signed(3 * i + 2));
     (0..COUNT).map(move |i| (vector(2 * i), vector(2 * i + 1)))
 }
 
-/// Rays from the first light to a grid over an object's box, across x and y.
+/// Returns rays from the first light to a grid over an object's box, across x and y.
 pub(super) fn aimed(object: ObjectRef, fan: Fan) -> impl Iterator<Item = Ray<S>> {
     let origin = SCENE
         .lights

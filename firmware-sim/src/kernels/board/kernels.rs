@@ -1,5 +1,5 @@
-//! The kernels. Each is a function of its own, found by its name. Numbers come and go in registers,
-//! vectors and rays in memory.
+//! The kernels. Each is a function of its own, which is found by its name. Numbers are passed in registers, vectors and
+//! rays in memory.
 
 use crate::baked::{FEATURES, S, SCENE, Tree};
 use core::hint::black_box;
@@ -22,7 +22,7 @@ pub(super) type Stack = <Tree as Accelerator<S, FEATURES>>::Stack;
 pub(super) type Walk = fn(&Tree, &Ray<S>, &mut Stack) -> Found;
 pub(super) type Lit = fn(&Scene, ObjectRef, &Ray<S>) -> Vec3<S>;
 
-/// Nothing but the return.
+/// Only returns.
 #[inline(never)]
 pub(super) fn kernel_empty(a: S, _: S) -> S {
     a
@@ -93,27 +93,27 @@ fn hit(shapes: &Shapes, kind: ObjectKind, i: usize, ray: &Ray<S>) -> Option<S> {
     shapes.hit(ObjectRef::new(kind, i as u32), ray, SCENE.diameter, &mut ())
 }
 
-/// A search from end to end. The barrier, and the other's, keep the two from being one function.
+/// Searches the whole tree. The barriers here and in the next function keep the two from being merged.
 #[inline(never)]
 pub(super) fn kernel_walk(tree: &Tree, ray: &Ray<S>, stack: &mut Stack) -> Found {
     black_box(1u32);
     tree.nearest(&SCENE, ray, stack, &mut ())
 }
 
-/// The same, for a tree of which there is nothing but the root.
+/// The same, for a tree that consists of the root only.
 #[inline(never)]
 pub(super) fn kernel_root(tree: &Tree, ray: &Ray<S>, stack: &mut Stack) -> Found {
     black_box(2u32);
     tree.nearest(&SCENE, ray, stack, &mut ())
 }
 
-/// The light of a surface with the first of the scene's lights.
+/// Shades a surface with the first of the scene's lights.
 #[inline(never)]
 pub(super) fn kernel_one_light(scene: &Scene, object: ObjectRef, ray: &Ray<S>) -> Vec3<S> {
     lit(scene, 1, object, ray)
 }
 
-/// The same with two.
+/// The same with two lights.
 #[inline(never)]
 pub(super) fn kernel_two_lights(scene: &Scene, object: ObjectRef, ray: &Ray<S>) -> Vec3<S> {
     lit(scene, 2, object, ray)
@@ -136,7 +136,7 @@ fn lit(scene: &Scene, lights: usize, object: ObjectRef, ray: &Ray<S>) -> Vec3<S>
     tracer.radiance(*ray, &mut workspace, &mut ())
 }
 
-/// One object that nothing shadows.
+/// A single object without shadows.
 struct Alone(ObjectRef);
 
 impl Accelerator<S, FEATURES> for Alone {
@@ -153,7 +153,7 @@ impl Accelerator<S, FEATURES> for Alone {
         Some(Hit { t, object: self.0 })
     }
 
-    // The ray is made, though nobody follows it.
+    // The ray is computed, though it is not traced.
     fn any_hit<O: Observer>(
         &self,
         _: &scene::Scene<'_, S, FEATURES>,

@@ -5,7 +5,7 @@ use crate::cli::{files, value};
 use clap::{Args, value_parser};
 use octray_lab::canvas;
 use octray_lab::measure::board::{self, BOARDS, Board};
-use octray_lab::measure::job::{BuildOptions, Goal, MeasureJob};
+use octray_lab::measure::job::{FirmwareOptions, Goal, MeasureJob};
 use octray_lab::measure::ratio::CORES;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings};
@@ -112,7 +112,7 @@ impl MeasureArgs {
                 cut_off: self.cut_off,
                 ..RenderSettings::DEFAULT
             },
-            build: BuildOptions {
+            build: FirmwareOptions {
                 tree: self.tree,
                 optimize: self.optimize,
             },

@@ -3,7 +3,7 @@
 use crate::cli::{files, value};
 use clap::Args;
 use octray_lab::measure::board::{self, Board};
-use octray_lab::plan::job::{Bounds, Numbers, PlanJob, memory};
+use octray_lab::plan::job::{Numbers, PlanJob, PlanLimits, memory};
 use octray_prepare::choice::Choice;
 use octray_render::error::Error;
 use std::path::PathBuf;
@@ -65,7 +65,7 @@ impl PlanArgs {
         Ok(PlanJob {
             scene: self.scene,
             board,
-            bounds: Bounds {
+            limits: PlanLimits {
                 flash: self.flash.unwrap_or(flash),
                 ram: self.ram.unwrap_or(ram),
                 min_psnr: self.min_psnr,

@@ -4,7 +4,7 @@ use crate::cli::{files, value};
 use clap::Args;
 use octray_lab::simulate::Machine;
 use octray_lab::tables::TablesJob;
-use octray_lab::tables::number::Number;
+use octray_lab::tables::number::TableNumber;
 use octray_lab::tables::shared::Simulation;
 use octray_prepare::choice::Choice;
 use octray_render::error::Error;
@@ -18,8 +18,8 @@ The output is the same in every run, except for what --time adds. Numbers of the
 `not at hand`. To compare more of them, complete a copy of lab/src/tables/thesis.csv and pass it with --thesis.")]
 pub struct TablesArgs {
     /// The tables [default: all]
-    #[arg(value_name = "TABLE", value_parser = value::choice::<Number>().ignore_case())]
-    tables: Vec<Number>,
+    #[arg(value_name = "TABLE", value_parser = value::choice::<TableNumber>().ignore_case())]
+    tables: Vec<TableNumber>,
     /// Print JSON instead of tables to read
     #[arg(long)]
     json: bool,
@@ -68,11 +68,11 @@ impl TablesArgs {
         files::distinct(inputs.into_iter().flatten(), &self.output)?;
         let mut tables = self.tables;
         if tables.is_empty() {
-            tables = Number::all();
+            tables = TableNumber::all();
         }
         tables.sort_unstable();
         tables.dedup();
-        if self.charts.is_some() && !tables.iter().any(|number| *number >= Number::Eight) {
+        if self.charts.is_some() && !tables.iter().any(|number| *number >= TableNumber::Eight) {
             return Err(Error::Usage(
                 "--charts draws figure 24 with table VIII and figure 25 with table IX: name one of them".into(),
             ));

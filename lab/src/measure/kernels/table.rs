@@ -1,11 +1,10 @@
-//! The kernels' costs as a table to read.
+//! The kernels' costs as a table.
 
 use super::super::table::{left, table};
-use super::{KERNELS, Row};
+use super::{KERNELS, KernelRow};
 
-/// The table: a line for each kernel, a column for each board and arithmetic; and below it what
-/// failed.
-pub(super) fn text(rows: &[Row]) -> String {
+/// Formats the table: a line per kernel, a column per board and arithmetic; the failures follow.
+pub(super) fn text(rows: &[KernelRow]) -> String {
     let runs: Vec<_> = rows.chunks(KERNELS.len()).collect();
     let heads = runs.iter().filter_map(|run| run.first()).map(head);
     let heads: Vec<_> = ["instructions per call".into()]
@@ -16,7 +15,7 @@ pub(super) fn text(rows: &[Row]) -> String {
     let mut table = table(&heads);
     left(&mut table, 1);
     for (i, (kernel, _)) in KERNELS.iter().enumerate() {
-        let cost = |run: &&[Row]| run.get(i).and_then(|row| row.per_call);
+        let cost = |run: &&[KernelRow]| run.get(i).and_then(|row| row.per_call);
         let cell = |cost: Option<f64>| cost.map_or("–".into(), |cost| format!("{cost:.1}"));
         let cells = runs.iter().map(|run| cell(cost(run)));
         table.add_row([(*kernel).into()].into_iter().chain(cells));
@@ -28,16 +27,16 @@ pub(super) fn text(rows: &[Row]) -> String {
     text
 }
 
-/// What failed: a line for each board and arithmetic.
-pub(super) fn failures(rows: &[Row]) -> Vec<String> {
+/// Returns the failures: a line per board and arithmetic.
+pub(super) fn failures(rows: &[KernelRow]) -> Vec<String> {
     (rows.chunks(KERNELS.len()))
         .filter_map(|run| run.iter().find(|row| row.outcome != "ok"))
         .map(|row| format!("{}: {}", head(row), row.outcome))
         .collect()
 }
 
-/// The board, the arithmetic, and the format if that is another.
-fn head(row: &Row) -> String {
+/// Returns the board, the arithmetic, and the format if it differs.
+fn head(row: &KernelRow) -> String {
     format!("{} {}", row.board.name, row.arith.with_format(row.format))
 }
 
@@ -49,7 +48,7 @@ mod tests {
     use octray_prepare::Arith;
 
     #[test]
-    fn failures_are_told_once_and_have_no_number() {
+    fn failures_are_reported_once_and_have_no_number() {
         let failed = Err("stack overflow".to_owned());
         let rows = KERNELS.map(|kernel| row(kernel, &BOARDS[1], Arith::F32, &failed));
         let text = text(&rows);
@@ -59,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn no_column_is_forgotten() {
+    fn every_field_has_a_column() {
         let row = row(KERNELS[0], &BOARDS[1], Arith::F32, &Err("hung".to_owned()));
         let row = serde_json::to_value(row).unwrap();
         let mut keys: Vec<_> = row.as_object().unwrap().keys().map(|k| &**k).collect();

@@ -1,18 +1,18 @@
-//! Surfaces close to each other, and in the same place.
+//! Surfaces close to each other, and surfaces in the same place.
 
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{self, Number, counted};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::accel::{Accelerator, BruteForce};
 use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
 
-/// Two spheres or two squares, the one 10⁻¹ to 10⁻⁷ of their size above the other; and in the same
-/// place, where the first in the file counts. A hit is the right one.
+/// Two spheres or two squares, one of them 10⁻¹ to 10⁻⁷ of their size above the other, or both in the same place, where
+/// the first in the file counts. A hit means the right one.
 #[derive(Debug)]
 pub struct Coincident;
 
@@ -46,16 +46,16 @@ impl Sweep for Coincident {
         forms: &[
             Form {
                 name: SHIPPED,
-                label: "nearest t; of equal ones the first in the file",
+                label: "nearest t; for equal t the first in the file",
             },
             Form {
                 name: "last",
-                label: "nearest t; of equal ones the last tested",
+                label: "nearest t; for equal t the last tested",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..StateLimits::NONE
         },
     };
 
@@ -64,18 +64,18 @@ impl Sweep for Coincident {
         if value.is_infinite() {
             return whole;
         }
-        // What is as small as the gap has to be resolved.
+        // A detail as small as the gap must be resolved.
         whole.and(Shape::Sphere {
             centre: [0.0; 3],
             radius: 1.0 / value,
         })
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(15);
         for case in 0..48 {
-            // The upper one is the first in the file, or the second.
+            // The upper one is the first or the second in the file.
             let upper_first = case % 2 == 0;
             let gap = 1.0 / value;
             let heights = if upper_first { [gap, 0.0] } else { [0.0, gap] };
@@ -98,12 +98,12 @@ impl Sweep for Coincident {
                 counted(|| shipped(&prepared, &ray)),
                 counted(|| last(&prepared, &ray)),
             ];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
-                tally.decide(true, found == Some(right));
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
+                errors.decide(true, found == Some(right));
             }
         }
-        tallies
+        all_errors
     }
 }
 
@@ -123,7 +123,7 @@ fn squares(normal: [f64; 3], across: [f64; 3], heights: [f64; 2], eye: [f64; 3])
             random::add(flat, random::times(normal, 1.0 + height))
         })
     };
-    // Something to begin with, out of sight.
+    // A sphere that comes first and is out of sight.
     let centre = random::times(normal, -1.0);
     Setting::of(
         Shape::Sphere {
@@ -136,7 +136,7 @@ fn squares(normal: [f64; 3], across: [f64; 3], heights: [f64; 2], eye: [f64; 3])
     .and_polygon(&square(heights[1]))
 }
 
-/// What the ray meets first: 0 or 1, as they come in the file.
+/// Returns what the ray hits first: 0 or 1, in the order of the file.
 fn shipped<S: Number>(prepared: &Prepared<S>, ray: &Ray<S>) -> Option<u32> {
     let scene = prepared.scene.scene();
     let all: Vec<ObjectRef> = scene.shapes.refs().collect();

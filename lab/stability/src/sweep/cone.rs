@@ -1,4 +1,4 @@
-//! Cones: thin ones, near the apex, from far away.
+//! Cones: thin ones, near the apex, and from far away.
 
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, exact3, near, root, sub, times};
 use crate::fixtures;
@@ -6,7 +6,7 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats};
 use crate::random::{self, Random, dot as dot64};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::vec3::Vec3;
@@ -24,14 +24,14 @@ const FORMS: &[Form] = &[
     },
 ];
 
-const BOUNDS: Bounds = Bounds {
-    wrong: Some(bound(0.0, 0.05)),
-    error: Some(bound(0.02, 0.5)),
-    angle: Some(bound(0.05, 0.5)),
-    ..Bounds::NONE
+const LIMITS: StateLimits = StateLimits {
+    wrong: Some(limit(0.0, 0.05)),
+    error: Some(limit(0.02, 0.5)),
+    angle: Some(limit(0.05, 0.5)),
+    ..StateLimits::NONE
 };
 
-/// Cones 1 to 10⁷ times as long as they are wide, in a scene of about their length.
+/// Cones 1 to 10⁷ times as long as their radius, in a scene of about their length.
 #[derive(Debug)]
 pub struct Thin;
 
@@ -44,14 +44,14 @@ impl Sweep for Thin {
         values: SEVEN_DECADES,
         home: 1.0,
         forms: FORMS,
-        bounds: BOUNDS,
+        limits: LIMITS,
     };
 
     fn setting(value: f64) -> Setting {
         Truncated::around([0.6, 0.0, 0.8], 1.0, [1.0 / value, 0.5 / value]).seen([0.0, 1.5, 0.0])
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
         sweep::<S>(10, |random| {
             let axis = random.direction();
             Case {
@@ -63,7 +63,7 @@ impl Sweep for Thin {
     }
 }
 
-/// Rays that meet a cone at 1/2 to 10⁻⁷ of its length from the apex.
+/// Rays that hit a cone at 1/2 to 10⁻⁷ of its length from the apex.
 #[derive(Debug)]
 pub struct Apex;
 
@@ -76,16 +76,16 @@ impl Sweep for Apex {
         values: SEVEN_DECADES.split_at(1).1,
         home: 2.0,
         forms: FORMS,
-        bounds: BOUNDS,
+        limits: LIMITS,
     };
 
     fn setting(value: f64) -> Setting {
-        // Of the tip, a pixel's worth.
+        // A pixel's worth of the tip.
         let tip = Truncated::around([0.6, 0.0, 0.8], 1.0, [0.5, 0.0]);
         Setting::pixel(0.5 / value).and(tip.shape())
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
         sweep::<S>(11, |random| {
             let axis = random.direction();
             Case {
@@ -110,14 +110,14 @@ impl Sweep for Far {
         values: SEVEN_DECADES.split_at(1).1,
         home: 2.0,
         forms: FORMS,
-        bounds: BOUNDS,
+        limits: LIMITS,
     };
 
     fn setting(value: f64) -> Setting {
         Truncated::around([0.6, 0.0, 0.8], 1.0, [0.4, 0.2]).seen([0.0, value, 0.0])
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
         sweep::<S>(12, |random| {
             let axis = random.direction();
             Case {
@@ -160,15 +160,15 @@ impl Truncated {
     }
 }
 
-/// A cone, how far the ray's origin is from it, and at what share of its length the ray meets it.
+/// A cone, the distance of the ray's origin from it, and the share of its length at which the ray hits it.
 struct Case {
     cone: Truncated,
     distance: f64,
     height: f64,
 }
 
-fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally> {
-    let mut tallies = vec![Tally::default(); 2];
+fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<ErrorStats> {
+    let mut all_errors = vec![ErrorStats::default(); 2];
     let mut random = Random::new(seed);
     for aim in [-0.9, -0.5, 0.0, 0.5, 0.9, 1.15, 1.5, -2.0].repeat(4) {
         let case = case(&mut random);
@@ -178,7 +178,7 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally>
         let axis = random::times(axis, 1.0 / length);
         let middle = random::add(cone.base, random::times(axis, case.height * length));
         let radius = cone.radii[0] + (cone.radii[1] - cone.radii[0]) * case.height;
-        // Across the axis, or at most at 45 degrees.
+        // Perpendicular to the axis, or at 45 degrees at most.
         let across = random.across(axis);
         let tilt = random::times(axis, random.between(-0.7, 0.7));
         let towards = random::times(random::add(across, tilt), -1.0);
@@ -187,7 +187,7 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally>
         let Some(prepared) = cone.seen(eye).prepare::<S>() else {
             continue;
         };
-        // From where the ray is aimed back to the eye, with the direction as it is rounded.
+        // From the target of the ray back to the eye, along the rounded direction.
         let direction = number::direction::<S>(towards);
         let aimed = random::add(middle, random::times(aside, aim * radius));
         let size = dot64(towards, towards).sqrt() * case.distance;
@@ -195,9 +195,9 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<Tally>
         let origin = random::add(prepared.placement.point(aimed), back);
         let ray = number::ray(origin, direction);
         let local = exact(prepared.placement.length(radius));
-        compare(&prepared, &cone, &ray, &local, &mut tallies);
+        compare(&prepared, &cone, &ray, &local, &mut all_errors);
     }
-    tallies
+    all_errors
 }
 
 fn compare<S: Number>(
@@ -205,7 +205,7 @@ fn compare<S: Number>(
     cone: &Truncated,
     ray: &Ray<S>,
     radius: &Exact,
-    tallies: &mut [Tally],
+    all_errors: &mut [ErrorStats],
 ) {
     let place = &prepared.placement;
     let scale = exact(place.scale());
@@ -226,17 +226,17 @@ fn compare<S: Number>(
         counted(|| fixtures::hit(&shapes, ObjectKind::Cone, ray, S::MAX)),
         counted(|| textbook(&numbers, ray)),
     ];
-    for ((found, saturations), tally) in found.into_iter().zip(tallies) {
-        tally.saturations += saturations;
-        tally.decide(truth.is_some(), found.is_some());
+    for ((found, saturations), errors) in found.into_iter().zip(all_errors) {
+        errors.saturations += saturations;
+        errors.decide(truth.is_some(), found.is_some());
         if let (Some((t, normal)), Some((found, found_normal))) = (&truth, found) {
-            tally.err(near(&((found.exact() - t) / radius)));
-            tally.turn(angle(normal, &exactly(found_normal)));
+            errors.err(near(&((found.exact() - t) / radius)));
+            errors.turn(angle(normal, &exactly(found_normal)));
         }
     }
 }
 
-/// The cone as it is, in a format's scale.
+/// The unrounded cone, in a format's scale.
 struct Solid {
     base: Exact3,
     top: Exact3,
@@ -244,13 +244,13 @@ struct Solid {
 }
 
 impl Solid {
-    /// The first hit ahead: its parameter and the outward normal, not normalised.
+    /// Returns the first hit ahead: its parameter and the outward normal, not normalised.
     fn first(&self, origin: &Exact3, direction: &Exact3) -> Option<(Exact, Exact3)> {
         let along = sub(&self.top, &self.base);
         let square = dot(&along, &along);
         let widening = &self.radii[1] - &self.radii[0];
         let w = sub(origin, &self.base);
-        // Height is y = y0 + y1 t in lengths of the axis, the radius there r0 + r1 t.
+        // Height is y = y0 + y1 t in lengths of the axis; the radius there is r0 + r1 t.
         let y0 = dot(&w, &along) / &square;
         let y1 = dot(direction, &along) / &square;
         let r0 = &self.radii[0] + &widening * &y0;
@@ -279,14 +279,14 @@ impl Solid {
     }
 }
 
-/// The cone in a format's scale, to be rounded.
+/// The cone in a format's scale, before rounding.
 struct Numbers {
     base: [f64; 3],
     top: [f64; 3],
     radii: [f64; 2],
 }
 
-/// The quadratic in plain numbers: unit axis, slope, and −b ± √(b² − ac) over a.
+/// Solves the quadratic in plain numbers: unit axis, slope, and −b ± √(b² − ac) over a.
 fn textbook<S: Number>(cone: &Numbers, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
     let base: Vec3<S> = number::vector(cone.base);
     let (axis, length) = (number::vector::<S>(cone.top) - base).unit();

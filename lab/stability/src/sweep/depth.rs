@@ -1,10 +1,10 @@
-//! Light that goes to and fro between mirrors: what depth and cut-off lose.
+//! Light that is reflected between mirrors: the loss by depth and cut-off.
 
 use crate::exact::{exact, near};
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::accel::BruteForce;
 use octray_core::object::ObjectRef;
 use octray_core::ray::Ray;
@@ -13,12 +13,12 @@ use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_core::vec3::{Vec3, vec3};
 use octray_prepare::quantise::Prepared;
 
-/// Two mirrors face each other and reflect 0 to 499/500; each shines by itself, so much that all
-/// light together is 0.9. Truth is the sum of all reflections of the numbers as they are rounded.
+/// Two mirrors face each other and reflect a share of 0 to 499/500. Each emits so much light that the sum of all light
+/// is 0.9. The reference is the sum of all reflections of the rounded numbers.
 #[derive(Debug)]
 pub struct Depth;
 
-/// The weight below which a ray is not traced, and the bounces that are enough for it here.
+/// The weight below which a ray is not traced, and the number of bounces that this allows here.
 const CUT_OFF: f64 = 1.0 / 512.0;
 const DEPTH: u32 = 4000;
 
@@ -35,7 +35,7 @@ impl Sweep for Depth {
         forms: &[
             Form {
                 name: SHIPPED,
-                label: "as deep as a cut-off of 1/512 lets it be",
+                label: "depth limited by a cut-off of 1/512 only",
             },
             Form {
                 name: "depth-8",
@@ -46,9 +46,9 @@ impl Sweep for Depth {
                 label: "at most 4 bounces",
             },
         ],
-        bounds: Bounds {
-            error: Some(bound(1.0, 8.0)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            error: Some(limit(1.0, 8.0)),
+            ..StateLimits::NONE
         },
     };
 
@@ -56,10 +56,10 @@ impl Sweep for Depth {
         mirrors().reflecting(1.0 - 1.0 / value, DEPTH)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 3];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 3];
         let Some(prepared) = mirrors().prepare::<S>() else {
-            return tallies;
+            return all_errors;
         };
         let reflect = S::from_f64(1.0 - 1.0 / value);
         let glow = S::from_f64(0.9 / value);
@@ -70,17 +70,17 @@ impl Sweep for Depth {
         } else {
             whole
         };
-        for (depth, tally) in [DEPTH, 8, 4].into_iter().zip(&mut tallies) {
+        for (depth, errors) in [DEPTH, 8, 4].into_iter().zip(&mut all_errors) {
             let (found, saturations) = counted(|| light(&prepared, reflect, glow, depth));
-            tally.cases += 1;
-            tally.saturations += saturations;
-            tally.err(255.0 * near(&(found.exact().min(exact(1.0)) - &truth)));
+            errors.cases += 1;
+            errors.saturations += saturations;
+            errors.err(255.0 * near(&(found.exact().min(exact(1.0)) - &truth)));
         }
-        tallies
+        all_errors
     }
 }
 
-/// Two squares that face each other, the eye between them.
+/// Returns two squares that face each other, with the eye between them.
 fn mirrors() -> Setting {
     let square = |z: f64| {
         [
@@ -95,7 +95,7 @@ fn mirrors() -> Setting {
         .and_polygon(&square(1.0))
 }
 
-/// What the tracer brings along a ray across the mirrors.
+/// Returns the light that the tracer finds along a ray perpendicular to the mirrors.
 fn light<S: Number>(prepared: &Prepared<S>, reflect: S, glow: S, max_depth: u32) -> S {
     let surfaces = [Surface {
         reflect,

@@ -1,13 +1,13 @@
 //! Glass: at grazing incidence, and near the critical angle.
 
-use super::mirror::{BOUNDS, incidence, leaving, per_cosine};
+use super::mirror::{LIMITS, incidence, leaving, per_cosine};
 use crate::exact::{Exact, Exact3, add, angle, dot, exact, root, times, unit};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::mock_accelerator;
 use crate::number::{Number, counted, exactly};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::vec3::Vec3;
 
 const IOR: f64 = 1.5;
@@ -36,9 +36,9 @@ impl Sweep for Glass {
         values: SEVEN_DECADES,
         home: 1.0,
         forms: FORMS,
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..BOUNDS
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..LIMITS
         },
     };
 
@@ -46,18 +46,18 @@ impl Sweep for Glass {
         Setting::pixel(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(5);
         for _ in 0..48 {
             let (incoming, normal) = incidence::<S>(&mut random, 1.0 / value);
-            compare(incoming, normal, 1.0 / IOR, &mut tallies);
+            compare(incoming, normal, 1.0 / IOR, &mut all_errors);
         }
-        tallies
+        all_errors
     }
 }
 
-/// Rays that leave glass at a sine that is off the critical one by a share of 1/5 to 10⁻⁷.
+/// Rays that leave glass at a sine that differs from the critical one by a share of 1/5 to 10⁻⁷.
 #[derive(Debug)]
 pub struct Critical;
 
@@ -70,9 +70,9 @@ impl Sweep for Critical {
         values: SEVEN_DECADES.split_at(2).1,
         home: 5.0,
         forms: FORMS,
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..BOUNDS
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..LIMITS
         },
     };
 
@@ -80,39 +80,44 @@ impl Sweep for Critical {
         Setting::pixel(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(6);
         for case in 0..48 {
             let off = if case % 2 == 0 { 1.0 } else { -1.0 } / value;
             let sine = ((1.0 + off) / IOR).min(1.0);
             let cosine = (1.0 - sine * sine).sqrt();
             let (incoming, normal) = incidence::<S>(&mut random, cosine);
-            compare(incoming, normal, IOR, &mut tallies);
+            compare(incoming, normal, IOR, &mut all_errors);
         }
-        tallies
+        all_errors
     }
 }
 
-/// Measures both forms on one ray; a hit is a transmitted ray.
-fn compare<S: Number>(incoming: Vec3<S>, normal: Vec3<S>, ratio: f64, tallies: &mut [Tally]) {
+/// Measures both forms on one ray; a hit means a transmitted ray.
+fn compare<S: Number>(
+    incoming: Vec3<S>,
+    normal: Vec3<S>,
+    ratio: f64,
+    all_errors: &mut [ErrorStats],
+) {
     let ratio = S::from_f64(ratio);
     let truth = truth(exactly(incoming), exactly(normal), &ratio.exact());
     let found = [
         counted(|| shipped(incoming, normal, ratio)),
         counted(|| thesis(incoming, normal, ratio)),
     ];
-    for ((found, saturations), tally) in found.into_iter().zip(tallies) {
-        tally.saturations += saturations;
-        if tally.decide(truth.is_some(), found.is_some())
+    for ((found, saturations), errors) in found.into_iter().zip(all_errors) {
+        errors.saturations += saturations;
+        if errors.decide(truth.is_some(), found.is_some())
             && let (Some(truth), Some(found)) = (&truth, found)
         {
             let found = exactly(found);
-            tally.turn(angle(truth, &found));
+            errors.turn(angle(truth, &found));
             let cosine = dot(&exactly(incoming), &exactly(normal));
-            // It leaves on the other side.
+            // A transmitted ray leaves on the other side.
             let wrong = dot(&found, &exactly(normal)) * cosine < Exact::ZERO;
-            tally.wrong_side += u32::from(wrong);
+            errors.wrong_side += u32::from(wrong);
         }
     }
 }

@@ -5,12 +5,12 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, span, vector};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::ray::Ray;
 use octray_core::shape;
 use octray_core::vec3::Vec3;
 
-/// A ground sphere seen from a height of which it has 1 to 10⁷ in its radius.
+/// A ground sphere whose radius is 1 to 10⁷ times the height of the eye.
 #[derive(Debug)]
 pub struct Ground;
 
@@ -36,11 +36,11 @@ impl Sweep for Ground {
                 label: "the near root as c / (b + √disc)",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            angle: Some(bound(0.02, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            angle: Some(limit(0.02, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -48,10 +48,10 @@ impl Sweep for Ground {
         Setting::sphere(value, value + 1.0)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 3];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 3];
         let mut random = Random::new(2);
-        // The whole sphere is in the scene, and so is the eye above it.
+        // The scene contains the whole sphere and the eye above it.
         let radius = span::<S>() / (2.0 + 1.0 / value);
         let height = radius / value;
         let sphere = shape::Sphere {
@@ -61,23 +61,28 @@ impl Sweep for Ground {
         for _ in 0..48 {
             let x = random.between(-0.1, 0.1) * height;
             let origin = [x, radius + height, -x];
-            // Down at 30 to 90 degrees, or up.
+            // Downward at 30 to 90 degrees, or upward.
             let mut towards = random.direction();
             towards[1] = -random.between(0.5, 1.0);
             if random.between(0.0, 1.0) < 0.25 {
                 towards[1] = -towards[1];
             }
             let ray = number::ray(origin, number::direction::<S>(towards));
-            compare(&sphere, &ray, &mut tallies, &[stable, textbook, quotient]);
+            compare(
+                &sphere,
+                &ray,
+                &mut all_errors,
+                &[stable, textbook, quotient],
+            );
         }
-        for tally in &mut tallies {
-            tally.error = (tally.error * value).min(Tally::LARGEST);
+        for errors in &mut all_errors {
+            errors.error = (errors.error * value).min(ErrorStats::LARGEST);
         }
-        tallies
+        all_errors
     }
 }
 
-/// The near root as the product of both roots over the far one.
+/// Returns the near root as the product of both roots divided by the far one.
 fn quotient<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
     let to_centre = sphere.centre - ray.origin;
     let b = to_centre.dot(ray.direction);

@@ -7,14 +7,14 @@ use crate::mock_accelerator::{self, Seen};
 use crate::number::{self, Number, counted, exactly};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::accel::Hit;
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::scene::Surface;
 use octray_core::vec3::Vec3;
 
-/// Rays that meet a mirror at a cosine of 1 to 10⁻⁷.
+/// Rays that hit a mirror at a cosine of 1 to 10⁻⁷.
 #[derive(Debug)]
 pub struct Mirror;
 
@@ -36,15 +36,15 @@ impl Sweep for Mirror {
                 label: "(1.0a–b): R = I/|I·N| + 2N",
             },
         ],
-        bounds: BOUNDS,
+        limits: LIMITS,
     };
 
     fn setting(value: f64) -> Setting {
         Setting::pixel(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(4);
         for _ in 0..48 {
             let (incoming, normal) = incidence::<S>(&mut random, 1.0 / value);
@@ -56,28 +56,28 @@ impl Sweep for Mirror {
                 counted(|| shipped(incoming, normal)),
                 counted(|| thesis(incoming, normal)),
             ];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.cases += 1;
-                tally.saturations += saturations;
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.cases += 1;
+                errors.saturations += saturations;
                 let found = exactly(found);
-                tally.turn(angle(&truth, &found));
-                // It leaves on the side that it came from.
+                errors.turn(angle(&truth, &found));
+                // A reflected ray leaves on the side from which it came.
                 let wrong = dot(&found, &n) * &cosine > Exact::ZERO;
-                tally.wrong_side += u32::from(wrong);
+                errors.wrong_side += u32::from(wrong);
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// Of directions: a pixel is about 0.002 rad wide.
-pub(super) const BOUNDS: Bounds = Bounds {
-    angle: Some(bound(0.002, 0.05)),
-    side: Some(bound(0.0, 0.05)),
-    ..Bounds::NONE
+/// The limits for directions: a pixel is about 0.002 rad wide.
+pub(super) const LIMITS: StateLimits = StateLimits {
+    angle: Some(limit(0.002, 0.05)),
+    side: Some(limit(0.0, 0.05)),
+    ..StateLimits::NONE
 };
 
-/// A unit direction that meets a surface of some unit normal at this cosine.
+/// Returns a unit direction that hits a surface of some unit normal at this cosine.
 pub(super) fn incidence<S: Number>(random: &mut Random, cosine: f64) -> (Vec3<S>, Vec3<S>) {
     let normal = random.direction();
     let along = random.across(normal);
@@ -87,7 +87,7 @@ pub(super) fn incidence<S: Number>(random: &mut Random, cosine: f64) -> (Vec3<S>
     (number::direction(incoming), number::direction(normal))
 }
 
-/// The rays that leave a plane of this normal and surface.
+/// Returns the rays that leave a plane of this normal and surface.
 pub(super) fn leaving<S: Number>(
     incoming: Vec3<S>,
     normal: Vec3<S>,
@@ -115,7 +115,7 @@ fn thesis<S: Number>(incoming: Vec3<S>, normal: Vec3<S>) -> Vec3<S> {
     (scaled + normal + normal).unit().0
 }
 
-/// Thesis (1.0a): V' = I/|I·N|, and the normal that faces the ray.
+/// Computes thesis (1.0a): V' = I/|I·N|, and the normal that faces the ray.
 pub(super) fn per_cosine<S: Number>(incoming: Vec3<S>, normal: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
     let cosine = incoming.dot(normal);
     let facing = if cosine > S::ZERO { -normal } else { normal };

@@ -1,12 +1,12 @@
-//! Rays that leave a surface: whether they meet it again (shadow acne), and whether they miss one
-//! close by (light leaks).
+//! Rays that leave a surface: whether they hit it again (shadow acne), and whether they miss another close to it (light
+//! leaks).
 
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::mock_accelerator;
 use crate::number::{self, Number, counted};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::accel::Hit;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
@@ -14,18 +14,18 @@ use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
 
-/// Scenes of 10⁻⁴ to 10⁵ units. Rays leave a sphere, or a square, and should meet another that is
-/// a hundredth of its size away; a hit on what they leave is a false hit.
+/// Scenes of 10⁻⁴ to 10⁵ units. Rays leave a sphere or a square, and should hit another that is a hundredth of its size
+/// away. A hit on the surface that they leave is a false hit.
 #[derive(Debug)]
 pub struct Offset;
 
-/// From one surface to the next, in sizes of the scene.
+/// The distance between the surfaces, in sizes of the scene.
 const GAP: f64 = 0.01;
-/// The sphere that is left, and the next.
+/// The sphere that rays leave, and the next one.
 const RADII: [f64; 2] = [1.0, 1.0 + GAP];
-/// Half the side and the height of the square that is left, and of the next.
+/// Half the side and the height of the square that rays leave, and of the next one.
 const SQUARES: [[f64; 2]; 2] = [[1.0, 2.0], [2.0, 2.0 + GAP]];
-/// What a ray has to go at least, in scene units.
+/// The least distance of a hit, in scene units.
 const EPSILON: f64 = 1e-4;
 
 impl Sweep for Offset {
@@ -42,39 +42,39 @@ impl Sweep for Offset {
         forms: &[
             Form {
                 name: SHIPPED,
-                label: "scaled; starts off the surface by a bound on its error",
+                label: "scaled; rays start off the surface by an error bound",
             },
             Form {
                 name: "epsilon",
                 label: "not scaled; hits count beyond t = 0.0001",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..StateLimits::NONE
         },
     };
 
     fn setting(value: f64) -> Setting {
         let centre = [0.0; 3];
-        // What is as small as the gap has to be resolved.
+        // A detail as small as the gap must be resolved.
         surfaces(value).and(Shape::Sphere {
             centre,
             radius: GAP * value,
         })
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(14);
         let Some(prepared) = surfaces(value).prepare::<S>() else {
-            return tallies;
+            return all_errors;
         };
         for case in 0..96 {
             let kind = [ObjectKind::Sphere, ObjectKind::Polygon][case % 2];
             let (eye, aim, outward) = incidence(kind, &mut random);
             let towards = number::direction::<S>(random::add(aim, random::times(eye, -1.0)));
-            // Away from the surface, at an angle of 3 to 90 degrees against it.
+            // Away from the surface, at an angle of 3 to 90 degrees to it.
             let slant = random.between(0.05, 1.0);
             let across = random::times(random.across(outward), 1.0 - slant);
             let away = number::direction::<S>(random::add(across, random::times(outward, slant)));
@@ -83,18 +83,18 @@ impl Sweep for Offset {
                 counted(|| shipped(&prepared, kind, eye, [towards, away])),
                 counted(|| epsilon(kind, value, eye, [towards, away])),
             ];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
                 let [itself, next] = found.unwrap_or([true, false]);
-                tally.decide(false, itself);
-                tally.decide(true, next);
+                errors.decide(false, itself);
+                errors.decide(true, next);
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// A sphere and a square, and after each, the one that a ray leaving it should meet.
+/// Returns a sphere and a square, and after each the one that a ray leaving it should hit.
 fn surfaces(size: f64) -> Setting {
     let [inner, outer] = RADII.map(|radius| Shape::Sphere {
         centre: [0.0; 3],
@@ -110,7 +110,7 @@ fn surfaces(size: f64) -> Setting {
         .and_polygon(&square(SQUARES[1]))
 }
 
-/// An eye, a point of the sphere or the square that it looks at, and the normal there.
+/// Returns an eye, a point of the sphere or the square that it looks at, and the normal there.
 fn incidence(kind: ObjectKind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64; 3]) {
     if kind == ObjectKind::Sphere {
         let outward = random.direction();
@@ -122,8 +122,8 @@ fn incidence(kind: ObjectKind, random: &mut Random) -> ([f64; 3], [f64; 3], [f64
     (place(3.9), place(SQUARES[0][1]), [0.0, 0.0, 1.0])
 }
 
-/// What a ray from the eye leaves behind it: whether it meets what it left, and whether it meets
-/// what is next. None if it does not come there in the first place.
+/// Returns whether a ray that leaves the surface hits the same surface, and whether it hits the next one, or `None` if
+/// the ray from the eye misses the surface.
 fn shipped<S: Number>(
     prepared: &Prepared<S>,
     kind: ObjectKind,
@@ -166,7 +166,7 @@ fn epsilon<S: Number>(
     Some([0, 1].map(|i| met(i, &leaving).is_some()))
 }
 
-/// Where a line passes through a sphere around the origin.
+/// Returns where a line intersects a sphere around the origin.
 fn sphere<S: Number>(radius: S, ray: &Ray<S>) -> [Option<S>; 2] {
     let middle = -ray.origin.dot(ray.direction);
     let apart = ray.at(middle);
@@ -178,7 +178,7 @@ fn sphere<S: Number>(radius: S, ray: &Ray<S>) -> [Option<S>; 2] {
     [Some(middle - half_chord), Some(middle + half_chord)]
 }
 
-/// Where it passes through a square across the z axis.
+/// Returns where it intersects a square perpendicular to the z axis.
 fn square<S: Number>([half, height]: [S; 2], ray: &Ray<S>) -> [Option<S>; 2] {
     let t = (height - ray.origin.z).quotient(ray.direction.z);
     let point = ray.at(t);

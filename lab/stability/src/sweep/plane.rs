@@ -1,4 +1,4 @@
-//! Planes that a ray is nearly parallel to.
+//! Planes that are nearly parallel to a ray.
 
 use crate::exact::{Exact, dot, near};
 use crate::fixtures::{self, outline, polygon, square};
@@ -6,12 +6,12 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::shape::Plane as CorePlane;
 
-/// Rays along a plane, at a slope of 1 to 10⁻⁷ against it.
+/// Rays along a plane, at a slope of 1 to 10⁻⁷ to it.
 #[derive(Debug)]
 pub struct Plane;
 
@@ -33,10 +33,10 @@ impl Sweep for Plane {
                 label: "thesis (2.4): −(N·O + D) times 1/(N·d)",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -44,8 +44,8 @@ impl Sweep for Plane {
         Setting::pixel(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(7);
         let span = span::<S>();
         let limit = S::from_f64(span / 2.0);
@@ -57,7 +57,7 @@ impl Sweep for Plane {
             let origin = random::times(random.direction(), 0.1 * span);
             let normal = number::direction::<S>(normal);
             let ray = number::ray(origin, number::direction::<S>(towards));
-            // In reach, beyond it, or behind.
+            // Within the limit, beyond it, or behind.
             let distance = match case % 4 {
                 0 | 1 => random.between(0.05, 0.45),
                 2 => random.between(0.6, 0.8),
@@ -74,19 +74,19 @@ impl Sweep for Plane {
             };
             let textbook = || textbook(&square.plane, &ray, limit);
             let found = [counted(shipped), counted(textbook)];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
-                tally.decide(truth.is_some(), found.is_some());
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
+                errors.decide(truth.is_some(), found.is_some());
                 if let (Some(truth), Some(found)) = (&truth, found) {
-                    tally.err(near(&((found.exact() - truth) / truth)));
+                    errors.err(near(&((found.exact() - truth) / truth)));
                 }
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// Where the line meets the plane, if that is ahead.
+/// Returns where the line intersects the plane, if that is ahead.
 pub(super) fn truth<S: Number>(plane: &CorePlane<S>, ray: &Ray<S>) -> Option<Exact> {
     let normal = exactly(plane.normal);
     let rise = dot(&normal, &exactly(ray.direction));
@@ -97,7 +97,7 @@ pub(super) fn truth<S: Number>(plane: &CorePlane<S>, ray: &Ray<S>) -> Option<Exa
     (t > Exact::ZERO).then_some(t)
 }
 
-/// The reciprocal is a number of the format, as on machines that do not divide.
+/// The reciprocal is rounded to the format, as on machines without division.
 fn textbook<S: Number>(plane: &CorePlane<S>, ray: &Ray<S>, limit: S) -> Option<S> {
     let reciprocal = S::ONE.quotient(plane.normal.dot(ray.direction));
     let t = (plane.offset - plane.normal.dot(ray.origin)) * reciprocal;

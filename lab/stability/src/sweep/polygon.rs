@@ -6,12 +6,12 @@ use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted, span, vector};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 
-/// Queries at 10⁻¹ to 10⁻⁹ of a polygon's size from its vertices, edges and diagonals, and from the
-/// lines on which the thesis's ray meets a vertex; and on them. A hit is a point inside.
+/// Queries at 10⁻¹ to 10⁻⁹ of a polygon's size from its vertices, edges and diagonals, and from the lines on which the
+/// thesis's ray hits a vertex; and exactly on them. A hit means a point inside.
 #[derive(Debug)]
 pub struct Polygon;
 
@@ -50,9 +50,9 @@ impl Sweep for Polygon {
                 label: "ray through the middle of an edge",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..StateLimits::NONE
         },
     };
 
@@ -60,24 +60,24 @@ impl Sweep for Polygon {
         Setting::pixel(1.0)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         for query in queries::<S>(value) {
             let truth = inside(&query);
             let found = [counted(|| shipped(query)), counted(|| thesis(query))];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
-                tally.decide(truth, found);
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
+                errors.decide(truth, found);
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// How far [`square`] reaches, in units of 1/16 of the star's half width.
+/// The half width of [`square`], in units of 1/16 of the star's half width.
 pub const REACH: i32 = 17;
 
-/// A star of four points, in those units.
+/// A star with four points, in those units.
 pub const STAR: [[f64; 2]; 8] = [
     [16.0, 0.0],
     [4.0, 4.0],
@@ -89,7 +89,7 @@ pub const STAR: [[f64; 2]; 8] = [
     [4.0, -4.0],
 ];
 
-/// A point, to be asked whether it is in the star.
+/// A query: is a point in the star?
 #[derive(Clone, Copy, Debug)]
 pub struct Query<S> {
     /// The star's corners.
@@ -98,19 +98,19 @@ pub struct Query<S> {
     pub point: [S; 2],
 }
 
-/// What is found of one point.
+/// The answers for one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer {
     /// The point, in units of 1/16 of the star's half width.
     pub point: [f64; 2],
-    /// Whether it is inside.
+    /// The exact answer: whether it is inside.
     pub truth: bool,
-    /// What each form says.
+    /// The answer of each form.
     pub found: [bool; 2],
 }
 
-/// Answers for a square of points around the star, half a unit apart: many lie on its edges, their
-/// diagonals, and the lines on which the thesis's ray meets a vertex.
+/// Returns the answers for a square of points around the star, half a unit apart. Many lie on its edges, their
+/// diagonals, and the lines on which the thesis's ray hits a vertex.
 pub fn square<S: Number>() -> Vec<Answer> {
     let unit = span::<S>() / 4.0 / 16.0;
     let corners = STAR.map(|c| c.map(|x| S::from_f64(x * unit)));
@@ -131,7 +131,7 @@ pub fn square<S: Number>() -> Vec<Answer> {
         .collect()
 }
 
-/// The queries at a distance of the star's half width over `value`.
+/// Returns the queries at a distance of the star's half width over `value`.
 pub fn queries<S: Number>(value: f64) -> Vec<Query<S>> {
     let mut random = Random::new(8);
     let unit = span::<S>() / 4.0 / 16.0;
@@ -146,7 +146,7 @@ pub fn queries<S: Number>(value: f64) -> Vec<Query<S>> {
             let along = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
             points.push(along(corner, next(i, 1)));
             points.push(along(next(1, 2 * i), next(5, 2 * i)));
-            // Beyond the point, its ray meets the vertex.
+            // Beyond the point, its ray hits the vertex.
             points.push(along(
                 corner,
                 [2.0 * corner[0] - sight[0], 2.0 * corner[1] - sight[1]],
@@ -171,7 +171,7 @@ pub fn queries<S: Number>(value: f64) -> Vec<Query<S>> {
     points.into_iter().map(near).collect()
 }
 
-/// The rule of `docs/MODEL.md`, exactly: even–odd, an edge owns its lower end.
+/// Applies the rule of `docs/MODEL.md` exactly: even–odd; an edge owns its lower end.
 pub fn inside<S: Number>(query: &Query<S>) -> bool {
     let point = query.point.map(S::exact);
     let corners = query.corners.map(|c| c.map(S::exact));
@@ -187,7 +187,7 @@ pub fn inside<S: Number>(query: &Query<S>) -> bool {
     odd
 }
 
-/// What octray does: the polygon lies in z = 0, the ray comes straight down.
+/// Applies octray's test: the polygon lies in z = 0, and the ray is perpendicular to it.
 pub fn shipped<S: Number>(query: Query<S>) -> bool {
     let height = S::from_f64(span::<S>() / 8.0);
     let [x, y] = query.point;
@@ -205,15 +205,15 @@ pub fn shipped<S: Number>(query: Query<S>) -> bool {
     .is_some()
 }
 
-/// The thesis's rule: a ray from the point through the middle of the first edge; the point is
-/// inside if the ray meets an odd number of edges.
+/// Applies the thesis's rule: a ray goes from the point through the middle of the first edge; the point is inside if
+/// the ray intersects an odd number of edges.
 pub fn thesis<S: Number>(query: Query<S>) -> bool {
     let half = S::from_f64(0.5);
     let [a, b] = [query.corners[0], query.corners[1]];
     let minus = |a: [S; 2], b: [S; 2]| [a[0] - b[0], a[1] - b[1]];
     let area = |a: [S; 2], b: [S; 2]| S::product(a[0], b[1]) - S::product(a[1], b[0]);
     let none = S::product(S::ZERO, S::ZERO);
-    // Halves first: their sum fits.
+    // Halve first, so that the sum fits.
     let middle = [0, 1].map(|k| a[k] * half + b[k] * half);
     let along = minus(middle, query.point);
     let mut odd = false;
@@ -226,7 +226,7 @@ pub fn thesis<S: Number>(query: Query<S>) -> bool {
         if below < none {
             (below, on_ray, on_edge) = (none - below, none - on_ray, none - on_edge);
         }
-        // Both parameters are these over `below`: compared, not divided. Parallel edges are not met.
+        // Both parameters are these over `below`: compared, not divided. Parallel edges do not intersect.
         odd ^= none < below && none <= on_ray && none <= on_edge && on_edge <= below;
     }
     odd
@@ -237,17 +237,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_vertex_belongs_to_the_side_its_edges_own() {
+    fn a_vertex_belongs_to_the_side_that_its_edges_own() {
         let corners = STAR;
         let ask = |point| inside(&Query { corners, point });
         assert!(ask([0.0, 0.0]) && !ask([8.0, 8.0]));
-        // Edges own their lower ends: the lowest corner is a crossing of two edges at once.
+        // Edges own their lower ends: at the lowest corner two edges are crossed at once.
         assert!(!ask([0.0, -16.0]) && !ask([0.0, 16.0]));
         assert!(ask([-16.0, 0.0]) != ask([16.0, 0.0]));
     }
 
     #[test]
-    fn on_a_square_of_points_only_the_thesis_errs() {
+    fn on_a_square_of_points_only_the_thesis_is_wrong() {
         let answers = square::<f32>();
         let wrong = |form: usize, found: bool| {
             let wrong = |a: &&Answer| a.found[form] != a.truth && a.found[form] == found;

@@ -5,11 +5,11 @@ use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{Number, counted};
 use crate::random::Random;
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use micromath::F32Ext;
 use octray_core::scalar::Exponent;
 
-/// Powers of 1 to 10⁵, of cosines whose power is between 0 and 1.
+/// Powers with exponents of 1 to 10⁵, of cosines for which the result is between 0 and 1.
 #[derive(Debug)]
 pub struct Power;
 
@@ -34,9 +34,9 @@ impl Sweep for Power {
                 label: "2^(n · log2 x), both by bit tricks",
             },
         ],
-        bounds: Bounds {
-            error: Some(bound(0.5, 8.0)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            error: Some(limit(0.5, 8.0)),
+            ..StateLimits::NONE
         },
     };
 
@@ -44,15 +44,15 @@ impl Sweep for Power {
         Setting::pixel(1.0)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(3);
         let whole = value.floor();
         let exponent = Exponent {
             whole: whole as u32,
             fraction: S::from_f64(value - whole),
         };
-        // With the fraction as it is rounded.
+        // With the rounded fraction.
         let power = exact(whole) + exponent.fraction.exact();
         for _ in 0..48 {
             let cosine = S::from_f64(libm::pow(random.between(0.001, 1.0), 1.0 / value));
@@ -62,18 +62,18 @@ impl Sweep for Power {
                 cosine.exact().powf(&power)
             };
             let forms: [fn(S, Exponent<S>) -> S; 2] = [S::power, bit_trick];
-            for (form, tally) in forms.iter().zip(&mut tallies) {
+            for (form, errors) in forms.iter().zip(&mut all_errors) {
                 let (found, saturations) = counted(|| form(cosine, exponent));
-                tally.cases += 1;
-                tally.saturations += saturations;
-                tally.err(255.0 * near(&(found.exact() - &truth)));
+                errors.cases += 1;
+                errors.saturations += saturations;
+                errors.err(255.0 * near(&(found.exact() - &truth)));
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// In 32-bit floats, whatever the format.
+/// Computes in 32-bit floats, whatever the format.
 fn bit_trick<S: Number>(x: S, exponent: Exponent<S>) -> S {
     let power = f64::from(exponent.whole) + exponent.fraction.to_f64();
     let result = F32Ext::powf(x.to_f64() as f32, power as f32);

@@ -1,4 +1,4 @@
-//! Objects at the rim of what a format holds.
+//! Objects at the limits of a format's range.
 
 use super::{slab, sphere};
 use crate::exact::{Exact, near};
@@ -7,23 +7,23 @@ use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::shape;
 use octray_core::vec3::Axis;
 use octray_scenes::model::Shape;
 
-/// A box as large as the scene and a sphere in its corner, seen from the opposite one, in scenes of
-/// 1 to almost 2 units: whatever their size, they are scaled by a power of two. Some rays go along
-/// the faces of the box, which is the root of an octree.
+/// A box as large as the scene and a sphere in its corner, seen from the opposite corner, in scenes of 1 to almost 2
+/// units: any size is scaled by a power of two. Some rays go along the faces of the box, which is the root of an
+/// octree.
 #[derive(Debug)]
-pub struct Arena;
+pub struct RangeLimits;
 
-impl Sweep for Arena {
+impl Sweep for RangeLimits {
     const ABOUT: About = About {
         name: "arena",
-        title: "At the rim of the scene",
+        title: "At the edge of the scene",
         axis: "size of the scene",
         unit: "of the scene in t",
         values: &[
@@ -40,10 +40,10 @@ impl Sweep for Arena {
                 label: "only coordinates fit the format",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -51,20 +51,20 @@ impl Sweep for Arena {
         Setting::of(block(value), [0.49 * value; 3]).and(ball(value))
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let Some(prepared) = Self::setting(value).prepare::<S>() else {
-            return tallies;
+            return all_errors;
         };
         let exponent = match S::FRACTION_BITS {
             Some(_) => libm::floor(libm::log2(S::MAX.to_f64() / (value / 2.0))),
             None => 0.0,
         };
         let scales = [prepared.placement.scale(), libm::exp2(exponent)];
-        for (scale, tally) in scales.into_iter().zip(&mut tallies) {
-            measure::<S>(value * scale, tally);
+        for (scale, errors) in scales.into_iter().zip(&mut all_errors) {
+            measure::<S>(value * scale, errors);
         }
-        tallies
+        all_errors
     }
 }
 
@@ -84,8 +84,8 @@ fn ball(size: f64) -> Shape {
     }
 }
 
-/// In a scene of this size in a format's numbers.
-fn measure<S: Number>(size: f64, tally: &mut Tally) {
+/// Measures in a scene of this size in a format's numbers.
+fn measure<S: Number>(size: f64, errors: &mut ErrorStats) {
     let mut random = Random::new(17);
     let block = shape::Cuboid {
         low: vector::<S>([-size / 2.0; 3]),
@@ -96,11 +96,11 @@ fn measure<S: Number>(size: f64, tally: &mut Tally) {
         radius: S::from_f64(RADIUS * size),
     };
     let mut take = |truth: Option<Exact>, found: (Option<S>, u32)| {
-        tally.saturations += found.1;
+        errors.saturations += found.1;
         let found = found.0;
-        tally.decide(truth.is_some(), found.is_some());
+        errors.decide(truth.is_some(), found.is_some());
         if let (Some(truth), Some(found)) = (truth, found) {
-            tally.err(near(&(found.exact() - truth)) / size);
+            errors.err(near(&(found.exact() - truth)) / size);
         }
     };
     for case in 0..48 {
@@ -126,7 +126,7 @@ fn measure<S: Number>(size: f64, tally: &mut Tally) {
     }
 }
 
-/// A ray in the plane of a face, from one edge to the opposite one.
+/// Returns a ray in the plane of a face, from one edge to the opposite one.
 fn along<S: Number>(block: &shape::Cuboid<S>, case: usize, random: &mut Random) -> Ray<S> {
     let axis = Axis::ALL[case % 3];
     let across = axis.others();

@@ -1,4 +1,4 @@
-//! Boxes: rays along their faces and past their edges and corners.
+//! Boxes: rays along their faces, and past their edges and corners.
 
 use crate::exact::{Exact, exact, near};
 use crate::fixtures::{cuboid, hit};
@@ -6,14 +6,14 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::shape::Cuboid;
 use octray_core::vec3::Axis;
 
-/// Rays at a slope of 1 to 10⁻⁷ against a face of a box, aimed a little inside and outside of its
-/// edges and corners; and every fourth along the face, in its very plane or a step beside it.
+/// Rays at a slope of 1 to 10⁻⁷ to a face of a box, aimed just inside and outside of its edges and corners. Every
+/// fourth ray goes along the face, exactly in its plane or one step beside it.
 #[derive(Debug)]
 pub struct Slab;
 
@@ -35,10 +35,10 @@ impl Sweep for Slab {
                 label: "times 1/d, a number of the format",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -46,8 +46,8 @@ impl Sweep for Slab {
         Setting::pixel(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(9);
         let span = span::<S>();
         let half = span / 16.0;
@@ -59,7 +59,7 @@ impl Sweep for Slab {
             let ray = if case % 4 == 0 {
                 along(&block, case / 4, &mut random)
             } else {
-                // A point inside or outside of an edge, or a corner.
+                // A point inside or outside of an edge or a corner.
                 let off = half * if case % 2 == 0 { 0.99 } else { 1.01 };
                 let third = if case % 8 < 4 { off } else { 0.3 * half };
                 let edge = [off, half * random.between(-0.9, 0.9), third];
@@ -72,19 +72,19 @@ impl Sweep for Slab {
             let truth = truth(&block, &ray);
             let shipped = || Some(hit(&cuboid(&block), ObjectKind::Cuboid, &ray, S::MAX)?.0);
             let found = [counted(shipped), counted(|| textbook(&block, &ray))];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
-                tally.decide(truth.is_some(), found.is_some());
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
+                errors.decide(truth.is_some(), found.is_some());
                 if let (Some(truth), Some(found)) = (&truth, found) {
-                    tally.err(near(&(found.exact() - truth)) / (2.0 * half));
+                    errors.err(near(&(found.exact() - truth)) / (2.0 * half));
                 }
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// A ray in the plane of a face, or beside it by a thousandth.
+/// Returns a ray in the plane of a face, or a thousandth beside it.
 fn along<S: Number>(block: &Cuboid<S>, case: usize, random: &mut Random) -> Ray<S> {
     let half = block.high.x.to_f64();
     let beside = [1.0, -1.0, 1.001, 0.999][case % 4] * half;
@@ -92,7 +92,7 @@ fn along<S: Number>(block: &Cuboid<S>, case: usize, random: &mut Random) -> Ray<
     number::ray([beside, height, 4.0 * half], vector([0.0, 0.0, -1.0]))
 }
 
-/// The first crossing ahead of the closed box.
+/// Returns the first intersection ahead with the closed box.
 pub(super) fn truth<S: Number>(block: &Cuboid<S>, ray: &Ray<S>) -> Option<Exact> {
     let (origin, direction) = (exactly(ray.origin), exactly(ray.direction));
     let (low, high) = (exactly(block.low), exactly(block.high));
@@ -118,7 +118,7 @@ pub(super) fn truth<S: Number>(block: &Cuboid<S>, ray: &Ray<S>) -> Option<Exact>
     (entry <= exit && t > Exact::ZERO).then_some(t)
 }
 
-/// Kay and Kajiya's slabs, the reciprocals of the direction worked out beforehand.
+/// Computes Kay and Kajiya's slabs with precomputed reciprocals of the direction.
 fn textbook<S: Number>(block: &Cuboid<S>, ray: &Ray<S>) -> Option<S> {
     let (mut entry, mut exit) = (-S::MAX, S::MAX);
     for axis in Axis::ALL {

@@ -6,7 +6,7 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, exactly, floats, span, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::object::ObjectKind;
 use octray_core::ray::Ray;
 use octray_core::shape;
@@ -16,7 +16,7 @@ use octray_core::vec3::Vec3;
 #[derive(Debug)]
 pub struct Sphere;
 
-/// Radii between the rays and the centre.
+/// Distances between the rays and the centre, in radii.
 const AIMS: [f64; 8] = [0.0, 0.3, 0.5, 0.8, 0.9, 1.1, 1.3, 2.0];
 
 impl Sweep for Sphere {
@@ -41,11 +41,11 @@ impl Sweep for Sphere {
                 label: "closest approach found twice",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            angle: Some(bound(0.02, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            angle: Some(limit(0.02, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -53,8 +53,8 @@ impl Sweep for Sphere {
         Setting::sphere(1.0, value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 3];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 3];
         let mut random = Random::new(1);
         let distance = span::<S>() / 2.0;
         let radius = S::from_f64(distance / value);
@@ -66,40 +66,40 @@ impl Sweep for Sphere {
                 centre: vector(random::times(towards, distance / 2.0)),
                 radius,
             };
-            // Aimed with the direction as it is rounded, or far away all rays would miss.
+            // The target is placed along the rounded direction; otherwise all rays would miss from far away.
             let back = random::times(floats(direction), -distance);
             let off = random::times(aside, aim * radius.to_f64());
             let origin = random::add(floats(sphere.centre), random::add(back, off));
             let ray = number::ray(origin, direction);
-            compare(&sphere, &ray, &mut tallies, &[stable, textbook, twice]);
+            compare(&sphere, &ray, &mut all_errors, &[stable, textbook, twice]);
         }
-        tallies
+        all_errors
     }
 }
 
-/// A form: the distance of the hit and the unit normal there.
+/// A form: returns the distance of the hit and the unit normal there.
 pub(super) type Hit<S> = fn(&shape::Sphere<S>, &Ray<S>) -> Option<(S, Vec3<S>)>;
 
-/// Measures forms on one ray. Errors of t count in radii.
+/// Measures forms on one ray. The unit of errors in t is the radius.
 pub(super) fn compare<S: Number>(
     sphere: &shape::Sphere<S>,
     ray: &Ray<S>,
-    tallies: &mut [Tally],
+    all_errors: &mut [ErrorStats],
     forms: &[Hit<S>],
 ) {
     let truth = truth(sphere, ray);
-    for (form, tally) in forms.iter().zip(tallies) {
+    for (form, errors) in forms.iter().zip(all_errors) {
         let (found, saturations) = counted(|| form(sphere, ray));
-        tally.saturations += saturations;
-        tally.decide(truth.is_some(), found.is_some());
+        errors.saturations += saturations;
+        errors.decide(truth.is_some(), found.is_some());
         if let (Some((t, normal)), Some((found_t, found_normal))) = (&truth, found) {
-            tally.err(near(&((found_t.exact() - t) / sphere.radius.exact())));
-            tally.turn(angle(normal, &exactly(found_normal)));
+            errors.err(near(&((found_t.exact() - t) / sphere.radius.exact())));
+            errors.turn(angle(normal, &exactly(found_normal)));
         }
     }
 }
 
-/// The parameter of the first hit at t > 0, and the outward normal, not normalised.
+/// Returns the parameter of the first hit at t > 0, and the outward normal, not normalised.
 pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(Exact, Exact3)> {
     let (origin, direction) = (exactly(ray.origin), exactly(ray.direction));
     let (centre, radius) = (exactly(sphere.centre), sphere.radius.exact());
@@ -124,12 +124,12 @@ pub(super) fn truth<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Optio
     })
 }
 
-/// What octray does.
+/// Applies octray's method.
 pub(super) fn stable<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
     fixtures::hit(&fixtures::sphere(sphere), ObjectKind::Sphere, ray, S::MAX)
 }
 
-/// Thesis (2.8). The difference is formed in the wide type, so that fixed point has a chance.
+/// Computes thesis (2.8). The difference is computed in the wide type, to give fixed point a chance.
 pub(super) fn textbook<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
     let to_centre = sphere.centre - ray.origin;
     let b = to_centre.dot(ray.direction);
@@ -144,8 +144,8 @@ pub(super) fn textbook<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Op
     (t > S::ZERO).then(|| (t, (ray.at(t) - sphere.centre).unit().0))
 }
 
-/// The shipped form with a second step to the closest approach, which takes away what a direction
-/// that is not quite a unit vector left of the first.
+/// The shipped form with a second step to the closest approach. The step removes the error that the first one has when
+/// the direction is not exactly a unit vector.
 fn twice<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<S>)> {
     let to_centre = sphere.centre - ray.origin;
     let first = to_centre.dot(ray.direction);
@@ -164,7 +164,7 @@ fn twice<S: Number>(sphere: &shape::Sphere<S>, ray: &Ray<S>) -> Option<(S, Vec3<
     } else {
         (middle + half_chord, second + half_chord)
     };
-    // From the first approach on: what is added to it is small.
+    // Relative to the first approach, so what is added is small.
     let normal = ray.direction * from_middle - rest;
     (t > S::ZERO).then(|| (t, normal.unit().0))
 }

@@ -5,12 +5,12 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{Number, counted, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::ray::Ray;
 use octray_scenes::model::Shape;
 
-/// The sphere sweep with the rounding of scene and ray included: rays of a camera pass a sphere of
-/// 1/2 to 10⁻⁷ of their length at 0 to 0.8 or at 1.2 to 2 radii. Truth is before all rounding.
+/// The sphere sweep including the rounding of scene and ray: rays of a camera pass a sphere of 1/2 to 10⁻⁷ of their
+/// length at 0 to 0.8 or at 1.2 to 2 radii. The reference is computed before any rounding.
 #[derive(Debug)]
 pub struct SubPixel;
 
@@ -32,9 +32,9 @@ impl Sweep for SubPixel {
                 label: "thesis (2.8): b² − c",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            ..StateLimits::NONE
         },
     };
 
@@ -42,8 +42,8 @@ impl Sweep for SubPixel {
         Setting::sphere(1.0, value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 2];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 2];
         let mut random = Random::new(16);
         for case in 0..64 {
             let towards = random.direction();
@@ -63,7 +63,7 @@ impl Sweep for SubPixel {
             let Some(prepared) = Setting::of(shape, eye).prepare::<S>() else {
                 continue;
             };
-            // As the camera does it: a vector of about ½, normalised.
+            // As the camera computes it: a vector of about ½, normalised.
             let ray = Ray {
                 origin: vector(prepared.placement.point(eye)),
                 direction: vector::<S>(random::times(aim, 0.5 / length)).unit().0,
@@ -74,11 +74,11 @@ impl Sweep for SubPixel {
                 counted(|| stable(sphere, &ray).is_some()),
                 counted(|| textbook(sphere, &ray).is_some()),
             ];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
-                tally.decide(truth, found);
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
+                errors.decide(truth, found);
             }
         }
-        tallies
+        all_errors
     }
 }

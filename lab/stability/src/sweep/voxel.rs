@@ -6,7 +6,7 @@ use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
 use crate::number::{self, Number, counted, floats};
 use crate::random::{self, Random};
 use crate::setting::Setting;
-use crate::tally::{Bounds, Tally, bound};
+use crate::state::{ErrorStats, StateLimits, limit};
 use octray_core::accel::{Accelerator, BuildOptions, LinkBy, OctreeVariant};
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
@@ -17,12 +17,12 @@ use octray_prepare::quantise::Prepared;
 use octray_prepare::tree::{Growth, OwnedBvh8, OwnedOctree};
 use octray_scenes::model::Shape;
 
-/// Rays along axes and diagonals, or at a slope of 1 to 10⁻⁷ against them, through corners of cells
-/// or as far beside them; at every other corner there is a sphere. A hit is the right sphere.
+/// Rays along axes and diagonals, or at a slope of 1 to 10⁻⁷ to them, through corners of cells or the same distance
+/// beside them. There is a sphere at every other corner. A hit means the right sphere.
 #[derive(Debug)]
 pub struct Voxel;
 
-/// The octree's root reaches from −`HALF` to `HALF` along each axis, in sides of its cells.
+/// The octree's root extends from −`HALF` to `HALF` along each axis, in sides of its cells.
 const HALF: i32 = 4;
 const RADIUS: f64 = 0.3;
 
@@ -37,21 +37,21 @@ impl Sweep for Voxel {
         forms: &[
             Form {
                 name: SHIPPED,
-                label: "tight boxes, entered and left",
+                label: "boxes of the BVH, entry and exit",
             },
             Form {
                 name: "octants",
-                label: "cells, entered and left",
+                label: "cells of the octree, entry and exit",
             },
             Form {
                 name: "thesis",
                 label: "next cell from the exit point",
             },
         ],
-        bounds: Bounds {
-            wrong: Some(bound(0.0, 0.05)),
-            error: Some(bound(0.01, 0.25)),
-            ..Bounds::NONE
+        limits: StateLimits {
+            wrong: Some(limit(0.0, 0.05)),
+            error: Some(limit(0.01, 0.25)),
+            ..StateLimits::NONE
         },
     };
 
@@ -59,10 +59,10 @@ impl Sweep for Voxel {
         lattice().in_pixels_of(1.0 / value)
     }
 
-    fn measure<S: Number>(value: f64) -> Vec<Tally> {
-        let mut tallies = vec![Tally::default(); 3];
+    fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
+        let mut all_errors = vec![ErrorStats::default(); 3];
         let Some(prepared) = lattice().prepare::<S>() else {
-            return tallies;
+            return all_errors;
         };
         let growth = Growth {
             options: BuildOptions {
@@ -71,41 +71,40 @@ impl Sweep for Voxel {
             },
             arena: None,
         };
-        // Building a tree puts the objects into its own order.
-        let (mut in_tight, mut in_octants) = (prepared.scene.clone(), prepared.scene.clone());
-        let (tight, _) = OwnedBvh8::build(&mut in_tight, &growth);
+        // Building a tree sorts the objects.
+        let (mut in_bvh, mut in_octree) = (prepared.scene.clone(), prepared.scene.clone());
+        let (tight, _) = OwnedBvh8::build(&mut in_bvh, &growth);
         let (octants, _) =
-            OwnedOctree::build(&mut in_octants, &growth, OctreeVariant::Plain, LinkBy::Box);
-        let (in_tight, in_octants) = (in_tight.scene(), in_octants.scene());
+            OwnedOctree::build(&mut in_octree, &growth, OctreeVariant::Plain, LinkBy::Box);
+        let (in_bvh, in_octree) = (in_bvh.scene(), in_octree.scene());
         let (tight, octants) = (tight.tree(), octants.tree());
         let grid = Grid::new(&prepared);
         for ray in rays(&prepared, value) {
             let truth = truth(&prepared.scene.spheres, &ray);
             let found = [
-                counted(|| nearest(&tight, &in_tight, &ray)),
-                counted(|| nearest(&octants, &in_octants, &ray)),
+                counted(|| nearest(&tight, &in_bvh, &ray)),
+                counted(|| nearest(&octants, &in_octree, &ray)),
                 counted(|| grid.walk(&prepared.scene.shapes(), &ray)),
             ];
-            for ((found, saturations), tally) in found.into_iter().zip(&mut tallies) {
-                tally.saturations += saturations;
+            for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
+                errors.saturations += saturations;
                 let Some((t, id)) = &truth else {
-                    tally.decide(false, found.is_some());
+                    errors.decide(false, found.is_some());
                     continue;
                 };
                 let right = found.filter(|(_, other)| other == id);
                 if let Some((found, _)) = right {
                     let radius = prepared.scene.spheres[*id as usize].radius.exact();
-                    tally.err(near(&((found.exact() - t) / radius)));
+                    errors.err(near(&((found.exact() - t) / radius)));
                 }
-                tally.decide(true, right.is_some());
+                errors.decide(true, right.is_some());
             }
         }
-        tallies
+        all_errors
     }
 }
 
-/// Spheres at every other corner of the cells inside the root, and in its eight corners to make it
-/// as large as it is.
+/// Returns spheres at every other corner of the cells inside the root, and in its eight corners, which set its size.
 fn lattice() -> Setting {
     let far = f64::from(HALF) - RADIUS;
     let sphere = |centre| Shape::Sphere {
@@ -124,13 +123,13 @@ fn lattice() -> Setting {
     setting
 }
 
-/// The corners of cells inside the root, but for those next to its faces.
+/// Returns the corners of cells inside the root, except those next to its faces.
 fn corners() -> impl Iterator<Item = [i32; 3]> {
     let range = || 2 - HALF..HALF - 1;
     range().flat_map(move |x| range().flat_map(move |y| range().map(move |z| [x, y, z])))
 }
 
-/// Rays from outside of the root.
+/// Returns rays from outside of the root.
 fn rays<S: Number>(prepared: &Prepared<S>, value: f64) -> Vec<Ray<S>> {
     const ALONG: [[f64; 3]; 6] = [
         [1.0, 0.0, 0.0],
@@ -165,7 +164,7 @@ fn rays<S: Number>(prepared: &Prepared<S>, value: f64) -> Vec<Ray<S>> {
     corners().enumerate().step_by(2).map(&mut aim).collect()
 }
 
-/// The first sphere's t and number, of all of them but those far from the ray, exactly.
+/// Returns the first sphere's t and number, computed exactly; skips spheres far from the ray.
 fn truth<S: Number>(spheres: &[shape::Sphere<S>], ray: &Ray<S>) -> Option<(Exact, u32)> {
     let apart = |sphere: &shape::Sphere<S>| {
         let to_centre = random::add(floats(sphere.centre), floats(-ray.origin));
@@ -189,7 +188,7 @@ fn nearest<S: Number, A: Accelerator<S>>(
     Some((hit.t, scene.attributes_of(hit.object).id))
 }
 
-/// The octree whose leaves are all as deep, with the spheres that each may hold.
+/// An octree whose leaves all have the same depth, with the spheres that each may hold.
 struct Grid<S> {
     side: S,
     cells: Vec<Vec<u32>>,
@@ -223,7 +222,7 @@ impl<S: Number> Grid<S> {
         ((x * Self::ROW + y) * Self::ROW + z) as usize
     }
 
-    /// The cell of the octree that holds a point, and its least corner; none outside of the root.
+    /// Returns the cell of the octree that contains a point, and its least corner, or `None` outside of the root.
     fn locate(&self, p: Vec3<S>) -> Option<([i32; 3], [S; 3])> {
         let mut at = [0; 3];
         let mut low = [S::ZERO; 3];
@@ -244,7 +243,7 @@ impl<S: Number> Grid<S> {
         Some((at, low))
     }
 
-    /// The distance at which the ray leaves or, with `enter`, comes to a cube.
+    /// Returns the distance at which the ray leaves a cube or, with `enter`, enters it.
     fn pass(&self, ray: &Ray<S>, low: [S; 3], size: S, enter: bool) -> S {
         let mut passed = if enter { S::ZERO } else { S::MAX };
         for (axis, low) in Axis::ALL.into_iter().zip(low) {
@@ -263,8 +262,8 @@ impl<S: Number> Grid<S> {
         passed
     }
 
-    /// From the point where the ray leaves a cell, a little further on, the next is looked for
-    /// from the root. A ray that stays in its cell is lost.
+    /// Searches for the next cell from the root, at a point slightly beyond the exit from the current cell. A ray that
+    /// stays in its cell is lost.
     fn walk(&self, shapes: &Shapes<'_, S>, ray: &Ray<S>) -> Option<(S, u32)> {
         let beyond = self.side * S::from_f64(1.0 / 256.0);
         let half = (0..2).fold(self.side, |size, _| size + size);

@@ -32,7 +32,7 @@ fn light_and_gloss_add_up() {
     assert_eq!(pixel(lit), [97; 3]);
     let coloured = "l 3 0 5 0.5 0 1 f 0.1 0.1 0.1 0.5 0.5 0.5 0.25 0.25 0.25 2 0 0 s 0 0 0 1";
     assert_eq!(pixel(coloured), [97, 26, 168]);
-    // A light behind the surface gives only ambient, and is not asked for.
+    // Behind the surface a light adds nothing, and no shadow ray is traced.
     let behind = pixel_with(
         "l 0 0 -5 1 f 0.1 0.1 0.1 1 1 1 1 1 1 0 0 0 p 3 -9 -9 0 9 -9 0 0 9 0",
         &Options::default(),
@@ -42,7 +42,7 @@ fn light_and_gloss_add_up() {
 
 #[test]
 fn zero_to_the_zero_is_one() {
-    // A wall at 45° mirrors the ray along −z into −x, square to the light in +z.
+    // A wall at 45° mirrors the ray along −z to −x, perpendicular to the light in +z.
     let wall = "l 0 0 9 1 f 0 0 0 0 0 0 0.5 0.5 0.5 0 0 0 p 4 -5 -5 -5 5 -5 5 5 5 5 -5 5 -5";
     assert_eq!(pixel(wall), [128; 3]);
     assert_eq!(pixel(&wall.replace("0.5 0 0 0", "0.5 1 0 0")), [0; 3]);
@@ -61,7 +61,7 @@ fn anything_between_a_point_and_a_light_blocks_it() {
 }
 
 #[test]
-fn mirror_and_glass_bring_their_shares() {
+fn mirror_and_glass_contribute_their_shares() {
     // A mirror of 0.5 under the background.
     assert_eq!(
         pixel("f 0.1 0.1 0.1 0 0 0 0 0 0 1 0.5 0 p 3 -9 -9 0 9 -9 0 0 9 0"),
@@ -80,9 +80,8 @@ fn mirror_and_glass_bring_their_shares() {
 }
 
 #[test]
-fn polygons_are_entered_each_time_and_spheres_left() {
-    // A ray at 45° upon polygons of ior 0.5 is wholly reflected, whichever way they are wound; its
-    // term is 0.
+fn polygons_are_entered_at_each_hit_and_spheres_are_left() {
+    // A ray at 45° to polygons of ior 0.5 is totally reflected, for either winding; its transmitted term is 0.
     let wall = "f 0.4 0.4 0.4 0 0 0 0 0 0 1 0 0.75 0.5 p 4";
     for corners in [
         "-5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
@@ -91,7 +90,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
         let picture = pixel_with(&format!("{wall} {corners}"), &Options::default());
         assert_eq!((picture.rgb, picture.counts.transmitted), (vec![26; 3], 0));
     }
-    // Of ior 2, they let it pass.
+    // With ior 2 they transmit it.
     let picture = pixel_with(
         &format!(
             "{} -5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
@@ -103,7 +102,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
         (picture.rgb, picture.counts.transmitted),
         (vec![64, 102, 140], 1)
     );
-    // Into a box of ior 2 at a right angle, and out of it again.
+    // Into a box of ior 2 perpendicularly, and out of it again.
     let picture = pixel_with(
         "f 0.4 0.4 0.4 0 0 0 0 0 0 1 0 0.75 2 box 0 0 0 2 2 2",
         &Options::default(),
@@ -116,7 +115,7 @@ fn polygons_are_entered_each_time_and_spheres_left() {
 
 #[test]
 fn depth_and_weight_end_the_recursion() {
-    // Two facing mirrors of 0.5; the eye between them.
+    // Two facing mirrors of 0.5, with the eye between them.
     let hall =
         "f 0.2 0.2 0.2 0 0 0 0 0 0 1 0.5 0 p 3 -9 -9 0 9 -9 0 0 9 0 p 3 -9 -9 20 9 -9 20 0 9 20";
     let with = |max_depth, cut_off| {
@@ -129,7 +128,7 @@ fn depth_and_weight_end_the_recursion() {
             },
         )
     };
-    // 0.2 · (1 + 1/2 + 1/4 + …), as many terms as rays.
+    // 0.2 · (1 + 1/2 + 1/4 + …), with one term per ray.
     assert_eq!(with(0, 0.0).rgb, [51; 3]);
     assert_eq!(with(2, 0.0).rgb, [89; 3]);
     assert_eq!(with(2, 0.0).counts.reflected, 2);
@@ -145,7 +144,7 @@ fn depth_and_weight_end_the_recursion() {
 
 #[test]
 fn a_pixel_is_the_mean_of_its_clamped_samples() {
-    // The left half of the pixel is covered by an over-bright polygon before black.
+    // A polygon brighter than 1 covers the left half of the pixel; the rest is black.
     let half = "b 0 0 0 f 2 2 2 0 0 0 0 0 0 1 0 0 p 4 -9 -9 0 0 -9 0 0 9 0 -9 9 0";
     let picture = pixel_with(
         half,
@@ -158,7 +157,7 @@ fn a_pixel_is_the_mean_of_its_clamped_samples() {
 }
 
 #[test]
-fn four_pixels_a_ray_share_the_colour_of_their_middle() {
+fn four_pixels_per_ray_share_the_colour_of_their_middle() {
     let text = "v 0 0 10 view parallel resolution 3 5 b 0 0 0 f 1 1 1 0 0 0 0 0 0 1 0 0 box -1 0.7 0 2.5 1 1";
     let four = Options {
         pixels_per_ray: 4,

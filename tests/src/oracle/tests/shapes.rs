@@ -12,7 +12,7 @@ use super::{close, down, near, v};
 const ROOT_HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 #[test]
-fn both_forms_of_each_entity_are_told_apart_by_their_numbers() {
+fn both_forms_of_each_entity_are_distinguished_by_their_numbers() {
     let scene = read::scene(
         "v 1 2 3 # thesis\r\nresolution 20 40\tb .1 2e-1 0.3 l 0 0 1 0.5 l 0 0 2 l 0 0 3 1 0.5 0.25 l 0 0 4 # last
         f 1 2 3 4 5 6 7 8 9 10 11 12 s 0 0 0 -2 f 1 2 3 4 5 6 7 8 9 10 11 12 13 s 0 0 0 1
@@ -123,7 +123,7 @@ fn nff_angle_lies_between_the_centres_of_the_outer_rows() {
 }
 
 #[test]
-fn nff_parallel_rays_pass_the_plane_through_at_where_the_perspective_rays_do() {
+fn nff_parallel_rays_pass_the_plane_through_at_like_the_perspective_rays() {
     let text = "v 0 0 5 at 0 0 3 up 0 2 1 angle 90 resolution 3 3";
     let ray = Camera::new(&view(&format!("{text} view parallel")), None).ray(2.5, 0.5);
     near(ray.direction, v(0.0, 0.0, -1.0));
@@ -191,7 +191,7 @@ fn cone_has_a_side_and_no_caps() {
     );
     assert_eq!(cone.hit(&down(0.0, 2.5)), None);
     near(cone.normal(v(0.0, 1.0, 1.0)), v(0.0, ROOT_HALF, ROOT_HALF));
-    // In at the open base, onto the inside: x = 1 meets the radius at y = 1.
+    // Through the open base, onto the inside: x = 1 meets the radius at y = 1.
     close(
         cone.hit(&Ray::new(v(1.0, -5.0, 0.0), v(0.0, 1.0, 0.0)))
             .unwrap(),
@@ -238,7 +238,7 @@ fn the_bounding_sphere_hides_no_hit() {
 
 #[test]
 fn polygon_follows_the_even_odd_rule() {
-    // A square with a notch reaching in from the right, and a pentagram.
+    // A square with a notch from the right, and a pentagram.
     let notched = Polygon::new(
         vec![
             v(0., 0., 1.),
@@ -305,8 +305,7 @@ fn patch_normal_is_interpolated_over_the_fan() {
         patch.shading_normal(v(0.75, 0.25, 0.)),
         v(0.5, 0.25, 1.0).unit(),
     );
-    // In the second triangle the second vertex has no part: 0.25 of the first, 0.5 of the third,
-    // 0.25 of the fourth.
+    // In the second triangle the second vertex has no weight: 0.25 of the first, 0.5 of the third, 0.25 of the fourth.
     near(
         patch.shading_normal(v(0.5, 0.75, 0.)),
         v(0.0, 0.5, 0.5).unit(),

@@ -11,19 +11,19 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-/// octray's sources, and the folder that their programs are built in. Only one process at a time
-/// has it: programs are built one after another under the same name.
+/// octray's sources, and the folder for build results. Only one process at a time holds it, because programs are built
+/// one after another under the same name.
 #[derive(Debug)]
-pub struct Workspace {
+pub struct SourceTree {
     root: PathBuf,
     built: PathBuf,
     _lock: File,
 }
 
-/// What is built with.
+/// The versions of the sources and the compiler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Versions {
-    /// The sources' commit, marked if something has been changed since.
+    /// The sources' commit, marked if the sources have been changed since.
     pub commit: String,
     /// The compiler.
     pub toolchain: String,
@@ -34,22 +34,22 @@ pub struct Versions {
 pub struct Program<'a> {
     /// The package.
     pub package: &'a str,
-    /// What cargo is told besides: profile, target, features.
+    /// Further arguments for cargo: profile, target, features.
     pub arguments: &'a [&'a str],
-    /// What the build script is told.
+    /// Variables for the build script.
     pub variables: &'a [(&'a str, &'a str)],
-    /// The binary or library of it.
+    /// The binary or library of the package.
     pub artifact: &'a str,
 }
 
-/// No build takes longer.
+/// The timeout of a build.
 const PATIENCE: Duration = Duration::from_secs(1800);
 
-impl Workspace {
-    /// The folder of octray's sources: where this program was compiled from.
+impl SourceTree {
+    /// Returns the folder of octray's sources, from which this program was compiled.
     ///
     /// # Errors
-    /// If it is not there any more.
+    /// If it does not exist any more.
     pub fn root() -> Result<PathBuf, Error> {
         let host = Path::new(env!("CARGO_MANIFEST_DIR"));
         host.parent()
@@ -57,16 +57,14 @@ impl Workspace {
             .map(Path::to_owned)
             .ok_or_else(|| {
                 let host = host.display();
-                Error::Failed(format!(
-                    "octray's sources are gone: {host} was their folder"
-                ))
+                Error::Failed(format!("octray's sources are missing: they were in {host}"))
             })
     }
 
-    /// Waits until nobody else builds in it.
+    /// Waits until no other process builds in it.
     ///
     /// # Errors
-    /// If the folder for what is built cannot be made.
+    /// If the folder for build results cannot be made.
     pub fn open(root: PathBuf) -> Result<Self, Error> {
         let target =
             env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
@@ -76,7 +74,7 @@ impl Workspace {
             .and_then(|()| File::create(&path))
             .and_then(|file| file.lock().map(|()| file))
             .map_err(|cause| Error::write(&path, cause))?;
-        // Commands run in the sources' folder.
+        // Commands run in the folder of the sources.
         let built = fs::canonicalize(&built).map_err(|cause| Error::write(&built, cause))?;
         Ok(Self {
             root,
@@ -85,12 +83,12 @@ impl Workspace {
         })
     }
 
-    /// The path of something in the sources.
+    /// Returns the path of a file of the sources.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join(name)
     }
 
-    /// Builds a program; the file that came out, or what the compiler complained of.
+    /// Builds a program. Returns its file, or the compiler's complaint.
     ///
     /// # Errors
     /// [`Error::Interrupted`]; [`Error::Failed`] if cargo does not run.
@@ -107,7 +105,7 @@ impl Workspace {
             .arg("--target-dir")
             .arg(&self.built)
             .args(program.arguments);
-        // Nothing that the user has set for other programs.
+        // Without the user's settings for other programs.
         for (name, _) in env::vars_os() {
             let text = name.to_string_lossy();
             if text.starts_with("OCTRAY_") || text.ends_with("RUSTFLAGS") {
@@ -116,21 +114,24 @@ impl Workspace {
         }
         command.env_remove("CARGO_BUILD_TARGET");
         command.envs(program.variables.iter().copied());
-        let (ended, told) = child::run(command, PATIENCE, interrupt)?;
+        let (ended, output) = child::run(command, PATIENCE, interrupt)?;
         if ended != (Ended::Exited { code: 0 }) {
-            return Ok(Err(complaint(&told.errors)));
+            return Ok(Err(complaint(&output.errors)));
         }
-        artifact(&told.output, program.artifact)
+        artifact(&output.output, program.artifact)
             .map(Ok)
             .ok_or_else(|| {
-                Error::Failed(format!("cargo did not tell where {} is", program.artifact))
+                Error::Failed(format!(
+                    "cargo did not report where {} is",
+                    program.artifact
+                ))
             })
     }
 
-    /// Builds one of the firmware's programs for a board: a binary, and the feature that it needs if any.
+    /// Builds one of the firmware's programs for a board: a binary, and the feature that it needs, if any.
     ///
     /// # Errors
-    /// As [`Self::build`].
+    /// Those of [`Self::build`].
     pub fn firmware(
         &self,
         (binary, feature): (&str, Option<&str>),
@@ -143,7 +144,7 @@ impl Workspace {
         arguments.extend(["--target", board.target]);
         arguments.extend(feature.iter().flat_map(|feature| ["--features", feature]));
         let mut variables = variables.to_vec();
-        // The memory of Arm's boards is alike, and so is what is built for them.
+        // Arm's boards have the same memory layout, so their programs are the same.
         if !board.is_arm() {
             variables.push(("OCTRAY_BOARD", board.machine));
         }
@@ -156,7 +157,7 @@ impl Workspace {
         self.build(&program, interrupt)
     }
 
-    /// What is built with.
+    /// Returns the versions of sources and compiler.
     pub fn versions(&self) -> Versions {
         let says = |program: &str, arguments: &[&str]| {
             Command::new(program)
@@ -164,8 +165,8 @@ impl Workspace {
                 .args(arguments)
                 .output()
                 .ok()
-                .filter(|told| told.status.success())
-                .map(|told| String::from_utf8_lossy(&told.stdout).trim().to_owned())
+                .filter(|output| output.status.success())
+                .map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
         };
         let commit = says("git", &["rev-parse", "--short=12", "HEAD"]).map(|commit| {
             match says("git", &["status", "--porcelain", "--untracked-files=no"]).as_deref() {
@@ -180,7 +181,7 @@ impl Workspace {
     }
 }
 
-/// The last file that cargo says it has made for the artifact.
+/// Returns the last file that cargo reports for the artifact.
 fn artifact(messages: &str, name: &str) -> Option<PathBuf> {
     let files = |line: &str| -> Option<PathBuf> {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
@@ -199,8 +200,7 @@ fn artifact(messages: &str, name: &str) -> Option<PathBuf> {
     messages.lines().rev().find_map(files)
 }
 
-/// The part of a compiler's complaint that says most: that the program is too large, or else the
-/// first error.
+/// Returns the most important line of a compiler's complaint: that the program is too large, or else the first error.
 fn complaint(text: &str) -> String {
     let line = |what: &str| {
         text.lines()
@@ -216,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_is_found_among_cargos_messages() {
+    fn the_file_is_found_in_cargos_messages() {
         let library = format!("liboctray_count{}", env::consts::DLL_SUFFIX);
         let messages = format!(
             "{}\n{}\n{}\n",
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn a_complaint_is_one_line() {
+    fn a_complaint_is_a_single_line() {
         let text = "error: linking with `rust-lld` failed: exit status: 1\n  = note: rust-lld: error: \
             section '.text' will not fit in region 'FLASH': overflowed by 512 bytes\n";
         assert_eq!(

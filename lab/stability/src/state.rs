@@ -1,13 +1,13 @@
-//! What is measured of a form at one place of a sweep, and what that makes of it.
+//! The measures of a form at one value of a sweep, and their rating.
 
 use serde::Serialize;
 
-/// The worst of all cases at one place of a sweep, and how many went wrong.
+/// The worst errors of all cases at one value of a sweep, and the number of wrong cases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Tally {
-    /// How many cases there were.
+pub struct ErrorStats {
+    /// The number of cases.
     pub cases: u32,
-    /// Decisions for a hit where there is none (what a sweep calls a hit, it says).
+    /// Decisions for a hit where there is none (each sweep defines what a hit is).
     pub false_hits: u32,
     /// Decisions for a miss where there is a hit.
     pub false_misses: u32,
@@ -15,17 +15,17 @@ pub struct Tally {
     pub wrong_side: u32,
     /// Saturations of fixed-point numbers.
     pub saturations: u32,
-    /// The largest error, in the sweep's unit; at most [`Tally::LARGEST`].
+    /// The largest error, in the sweep's unit; at most [`ErrorStats::LARGEST`].
     pub error: f64,
-    /// The largest angle between a direction found and the true one, in radians.
+    /// The largest angle between a computed direction and the true one, in radians.
     pub angle: f64,
 }
 
-impl Tally {
-    /// What errors that are larger, or no number, count as.
+impl ErrorStats {
+    /// The recorded error of cases whose error is larger or NaN.
     pub const LARGEST: f64 = 1e9;
 
-    /// Counts a case, and whether it was decided as it should be. True if both say hit.
+    /// Counts a case, and whether its decision is right. Returns true if both are a hit.
     pub fn decide(&mut self, truth: bool, found: bool) -> bool {
         self.cases += 1;
         self.false_hits += u32::from(found && !truth);
@@ -33,22 +33,22 @@ impl Tally {
         truth && found
     }
 
-    /// Takes note of an error.
+    /// Records an error.
     pub fn err(&mut self, error: f64) {
         self.error = worse(self.error, error);
     }
 
-    /// Takes note of an angle.
+    /// Records an angle.
     pub fn turn(&mut self, angle: f64) {
         self.angle = worse(self.angle, angle);
     }
 
-    /// The share of cases with wrong decisions.
+    /// Returns the share of cases with wrong decisions.
     pub fn wrong_share(&self) -> f64 {
         share(self.false_hits + self.false_misses, self.cases)
     }
 
-    /// The share of cases on the wrong side.
+    /// Returns the share of cases on the wrong side.
     pub fn side_share(&self) -> f64 {
         share(self.wrong_side, self.cases)
     }
@@ -59,31 +59,31 @@ fn share(part: u32, whole: u32) -> f64 {
 }
 
 fn worse(a: f64, b: f64) -> f64 {
-    // What is no number is as bad as can be.
-    if b.abs() <= Tally::LARGEST {
+    // NaN counts as the largest error.
+    if b.abs() <= ErrorStats::LARGEST {
         a.max(b.abs())
     } else {
-        Tally::LARGEST
+        ErrorStats::LARGEST
     }
 }
 
-/// What a form is worth at one place of a sweep.
+/// The rating of a form at one value of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// Nobody would see the difference.
+    /// The difference is invisible.
     Holds,
     /// Visible, but recognisable.
     Degrades,
-    /// Not what it should be.
+    /// Wrong.
     Breaks,
 }
 
 impl State {
-    /// All states, from good to bad.
+    /// All states, from best to worst.
     pub const ALL: [Self; 3] = [Self::Holds, Self::Degrades, Self::Breaks];
 
-    /// One character for tables and records.
+    /// Returns its character for tables and records.
     pub const fn symbol(self) -> char {
         match self {
             Self::Holds => '+',
@@ -93,7 +93,7 @@ impl State {
     }
 }
 
-/// What made a state no better than it is.
+/// The cause of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
@@ -115,21 +115,21 @@ pub enum Cause {
     Saturations,
 }
 
-/// Up to where a measure holds, and beyond where it breaks.
+/// The limits of one measure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Bound {
+pub struct StateLimit {
     /// The largest value that holds.
     pub holds: f64,
     /// The largest value that does not break.
     pub degrades: f64,
 }
 
-/// A bound.
-pub const fn bound(holds: f64, degrades: f64) -> Bound {
-    Bound { holds, degrades }
+/// Returns a limit.
+pub const fn limit(holds: f64, degrades: f64) -> StateLimit {
+    StateLimit { holds, degrades }
 }
 
-impl Bound {
+impl StateLimit {
     fn judge(&self, value: f64) -> State {
         if value <= self.holds {
             State::Holds
@@ -141,21 +141,21 @@ impl Bound {
     }
 }
 
-/// The bounds of a sweep's measures; what has none is not judged. Any saturation degrades.
+/// The limits of a sweep's measures; a measure without limits is not rated. Any saturation degrades.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Bounds {
-    /// Of [`Tally::wrong_share`].
-    pub wrong: Option<Bound>,
-    /// Of [`Tally::error`].
-    pub error: Option<Bound>,
-    /// Of [`Tally::angle`].
-    pub angle: Option<Bound>,
-    /// Of [`Tally::side_share`].
-    pub side: Option<Bound>,
+pub struct StateLimits {
+    /// Limit of [`ErrorStats::wrong_share`].
+    pub wrong: Option<StateLimit>,
+    /// Limit of [`ErrorStats::error`].
+    pub error: Option<StateLimit>,
+    /// Limit of [`ErrorStats::angle`].
+    pub angle: Option<StateLimit>,
+    /// Limit of [`ErrorStats::side_share`].
+    pub side: Option<StateLimit>,
 }
 
-impl Bounds {
-    /// No bounds, to be added to.
+impl StateLimits {
+    /// No limits, as base of others.
     pub const NONE: Self = Self {
         wrong: None,
         error: None,
@@ -163,24 +163,24 @@ impl Bounds {
         side: None,
     };
 
-    /// The worst state of any measure, and the first measure in that state. What was never tried breaks.
-    pub fn judge(&self, tally: &Tally) -> (State, Cause) {
-        if tally.cases == 0 {
+    /// Returns the worst state of any measure, and the first measure in that state. Without a case the state is broken.
+    pub fn judge(&self, errors: &ErrorStats) -> (State, Cause) {
+        if errors.cases == 0 {
             return (State::Breaks, Cause::Refused);
         }
-        let wrong = if tally.false_hits > tally.false_misses {
+        let wrong = if errors.false_hits > errors.false_misses {
             Cause::FalseHits
         } else {
             Cause::FalseMisses
         };
         let measures = [
-            (self.wrong, tally.wrong_share(), wrong),
-            (self.side, tally.side_share(), Cause::Side),
-            (self.error, tally.error, Cause::Error),
-            (self.angle, tally.angle, Cause::Angle),
+            (self.wrong, errors.wrong_share(), wrong),
+            (self.side, errors.side_share(), Cause::Side),
+            (self.error, errors.error, Cause::Error),
+            (self.angle, errors.angle, Cause::Angle),
             (
-                Some(bound(0.0, f64::INFINITY)),
-                f64::from(tally.saturations),
+                Some(limit(0.0, f64::INFINITY)),
+                f64::from(errors.saturations),
                 Cause::Saturations,
             ),
         ];
@@ -199,54 +199,54 @@ impl Bounds {
 mod tests {
     use super::*;
 
-    const BOUNDS: Bounds = Bounds {
-        wrong: Some(bound(0.0, 0.1)),
-        error: Some(bound(0.01, 0.25)),
-        ..Bounds::NONE
+    const LIMITS: StateLimits = StateLimits {
+        wrong: Some(limit(0.0, 0.1)),
+        error: Some(limit(0.01, 0.25)),
+        ..StateLimits::NONE
     };
 
     #[test]
     fn the_worst_measure_counts() {
-        let mut tally = Tally::default();
-        assert!(tally.decide(true, true));
-        tally.err(0.01);
-        assert_eq!(BOUNDS.judge(&tally), (State::Holds, Cause::None));
-        tally.err(-0.02);
-        assert_eq!(BOUNDS.judge(&tally), (State::Degrades, Cause::Error));
-        assert!(!tally.decide(true, false));
-        assert_eq!(BOUNDS.judge(&tally), (State::Breaks, Cause::FalseMisses));
+        let mut errors = ErrorStats::default();
+        assert!(errors.decide(true, true));
+        errors.err(0.01);
+        assert_eq!(LIMITS.judge(&errors), (State::Holds, Cause::None));
+        errors.err(-0.02);
+        assert_eq!(LIMITS.judge(&errors), (State::Degrades, Cause::Error));
+        assert!(!errors.decide(true, false));
+        assert_eq!(LIMITS.judge(&errors), (State::Breaks, Cause::FalseMisses));
     }
 
     #[test]
     fn what_is_not_a_number_breaks_and_saturations_degrade() {
-        let mut tally = Tally::default();
-        tally.decide(true, true);
-        tally.err(f64::NAN);
-        assert_eq!(BOUNDS.judge(&tally), (State::Breaks, Cause::Error));
-        let saturated = Tally {
+        let mut errors = ErrorStats::default();
+        errors.decide(true, true);
+        errors.err(f64::NAN);
+        assert_eq!(LIMITS.judge(&errors), (State::Breaks, Cause::Error));
+        let saturated = ErrorStats {
             cases: 1,
             saturations: 1,
-            ..Tally::default()
+            ..ErrorStats::default()
         };
         assert_eq!(
-            BOUNDS.judge(&saturated),
+            LIMITS.judge(&saturated),
             (State::Degrades, Cause::Saturations)
         );
     }
 
     #[test]
     fn an_angle_without_a_bound_is_not_judged() {
-        let mut tally = Tally {
+        let mut errors = ErrorStats {
             cases: 1,
-            ..Tally::default()
+            ..ErrorStats::default()
         };
-        tally.turn(3.0);
-        assert_eq!(BOUNDS.judge(&tally).0, State::Holds);
+        errors.turn(3.0);
+        assert_eq!(LIMITS.judge(&errors).0, State::Holds);
     }
 
     #[test]
     fn without_a_case_nothing_holds() {
-        let nothing = BOUNDS.judge(&Tally::default());
+        let nothing = LIMITS.judge(&ErrorStats::default());
         assert_eq!(nothing, (State::Breaks, Cause::Refused));
     }
 }

@@ -1,18 +1,17 @@
-//! Text and numbers by semihosting, without the formatting machinery, which would not fit; and that
-//! the program panicked.
+//! Prints text and numbers by semihosting, without the formatting machinery, which would not fit. Reports panics.
 
 use core::panic::PanicInfo;
 use semihosting::process::exit;
 use semihosting::sys::arm_compat::sys_writec;
 
-/// Tells a text.
+/// Prints a text.
 pub(super) fn text(text: &str) {
     for byte in text.bytes() {
         sys_writec(byte);
     }
 }
 
-/// Tells a name and a number on a line of their own.
+/// Prints a name and a number on a line of their own.
 pub(super) fn number(name: &str, number: u32) {
     text("\n");
     text(name);
@@ -20,7 +19,8 @@ pub(super) fn number(name: &str, number: u32) {
     digits(number);
 }
 
-/// By subtraction: a division would link the library's routine on cores that have none.
+/// Prints a decimal number by subtraction: a division would link the library's routine on cores without the
+/// instruction.
 fn digits(mut number: u32) {
     let mut begun = false;
     for exponent in (0..10).rev() {
@@ -37,7 +37,7 @@ fn digits(mut number: u32) {
     }
 }
 
-/// Tells sixteen hexadecimal digits.
+/// Prints sixteen hexadecimal digits.
 pub(super) fn hexadecimal(number: u64) {
     for nibble in (0..16).rev() {
         let digit = (number >> (4 * nibble)) as u8 & 15;

@@ -1,17 +1,17 @@
-//! What is counted, and the report of it.
+//! The counters, and their report.
 
 use octray_instruction::{Class, Kind};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Something that QEMU, or a callback, adds to while the guest runs.
+/// A counter that QEMU, or a callback, increments while the guest runs.
 #[derive(Clone, Copy)]
 pub(crate) struct Counter {
     now: &'static AtomicU64,
     /// Its value when counting was last resumed.
     start: u64,
-    /// What counts.
+    /// The sum over the periods in which counting was on.
     sum: u64,
 }
 
@@ -25,50 +25,50 @@ impl Counter {
     }
 }
 
-/// What is counted apart.
+/// What a counter counts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum What {
     /// Instructions of a kind, in a function.
     Executed(String, Kind),
     /// Conditional branches that were taken.
     Taken,
-    /// Registers that loads and stores of several moved.
+    /// Registers moved by loads and stores of several registers.
     Moved,
 }
 
 /// Calls of one function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Calls {
-    /// How many.
+    /// The number of calls.
     pub(crate) count: u64,
-    /// Instructions from entry to return, those of the functions it calls included.
+    /// Instructions from entry to return, including those of the functions it calls.
     pub(crate) instructions: u64,
 }
 
 /// All counters.
-pub(crate) struct Tally {
+pub(crate) struct Counters {
     pub(crate) running: bool,
-    counters: BTreeMap<What, Counter>,
+    by_kind: BTreeMap<What, Counter>,
     pub(crate) calls: BTreeMap<String, Calls>,
 }
 
-impl Tally {
+impl Counters {
     pub(crate) const fn new() -> Self {
         Self {
             running: false,
-            counters: BTreeMap::new(),
+            by_kind: BTreeMap::new(),
             calls: BTreeMap::new(),
         }
     }
 
-    /// Where to add for it.
+    /// Returns the counter of `what`.
     pub(crate) fn counter(&mut self, what: What) -> &'static AtomicU64 {
-        self.counters.entry(what).or_insert_with(Counter::new).now
+        self.by_kind.entry(what).or_insert_with(Counter::new).now
     }
 
-    /// Resumes or pauses.
+    /// Resumes or pauses counting.
     pub(crate) fn run(&mut self, running: bool) {
-        for counter in self.counters.values_mut() {
+        for counter in self.by_kind.values_mut() {
             let now = counter.now.load(Ordering::Relaxed);
             if self.running {
                 counter.sum += now - counter.start;
@@ -78,13 +78,13 @@ impl Tally {
         self.running = running;
     }
 
-    /// All that was counted, line by line.
+    /// Returns all counts, one per line.
     pub(crate) fn report(&self) -> String {
         let mut classes: BTreeMap<Class, u64> = BTreeMap::new();
         let mut kinds: BTreeMap<Kind, u64> = BTreeMap::new();
         let mut functions: BTreeMap<&str, u64> = BTreeMap::new();
         let (mut taken, mut moved) = (0, 0);
-        for (what, counter) in &self.counters {
+        for (what, counter) in &self.by_kind {
             match what {
                 What::Executed(function, kind) => {
                     *classes.entry(kind.class()).or_default() += counter.sum;
@@ -125,15 +125,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_happens_while_it_runs_counts() {
-        let mut tally = Tally::new();
-        let add = tally.counter(What::Executed("f".into(), Kind::Load));
+    fn only_instructions_between_resume_and_pause_count() {
+        let mut counters = Counters::new();
+        let add = counters.counter(What::Executed("f".into(), Kind::Load));
         add.fetch_add(5, Ordering::Relaxed);
-        tally.run(true);
+        counters.run(true);
         add.fetch_add(7, Ordering::Relaxed);
-        tally.run(false);
+        counters.run(false);
         add.fetch_add(11, Ordering::Relaxed);
-        let report = tally.report();
+        let report = counters.report();
         assert!(report.contains("instructions 7\n"), "{report}");
         assert!(report.contains("class load-store 7\nkind load 7\n"));
         assert!(report.contains("function 7 f\n"));
