@@ -1,4 +1,4 @@
-//! Tells what stable compilers do not say in `target_feature`, by the target's name: whether a
+//! Sets what stable compilers do not show in `target_feature`, by the target's name: whether a
 //! RISC-V target has the F extension (`scalar::root`), whether an Arm target lacks a long
 //! multiplication (`scalar::multiply`), whether leading zeros are to be counted without an
 //! instruction (`scalar::zeros`), and whether floats are emulated (`scalar::whole`,

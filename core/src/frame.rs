@@ -132,7 +132,7 @@ impl<S: TraceScalar> Frame<S> {
         self.render_region(&Region { columns, rows }, tracer, workspace, observer, put);
     }
 
-    /// The same for a rectangle of pixels; what blocked the lights last is not forgotten first.
+    /// The same for a rectangle of pixels; the shadow cache is not cleared first.
     /// Blocks that begin above the rectangle or to its left are not rendered.
     pub fn render_region<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
         &self,
@@ -145,7 +145,7 @@ impl<S: TraceScalar> Frame<S> {
         let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
         let rows = both(&region.rows, &self.0.active.rows);
         let columns = both(&region.columns, &self.0.active.columns);
-        // 1 or 2; anything else must not stop the picture.
+        // 1 or 2; another value, which only `from_params` can bring, must not loop for ever.
         let block = self.0.block.clamp(1, 2);
         let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
         let mut row = first(&rows);

@@ -73,6 +73,7 @@
 #![deny(unsafe_code)]
 
 pub mod accel;
+mod array;
 pub mod camera;
 pub mod features;
 pub mod frame;

@@ -1,4 +1,4 @@
-//! Rays and the boxes they are clipped against.
+//! Rays, and axis-aligned bounding boxes (AABB).
 
 use crate::scalar::Scalar;
 use crate::vec3::{Axis, Vec3};
@@ -20,7 +20,7 @@ impl<S: Scalar> Ray<S> {
     }
 }
 
-/// An axis-aligned box, closed.
+/// An axis-aligned bounding box, closed: its faces belong to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Aabb<S> {

@@ -152,8 +152,8 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
             .nearest(self.scene, ray, workspace.stack, observer)
     }
 
-    /// The light of the surface itself, less what a transparent one lets through. The reflected
-    /// and the transmitted ray are put on the stack.
+    /// The light of the surface itself, less the share that a transparent one transmits. The reflected
+    /// and the transmitted ray are queued.
     #[inline(always)]
     fn shade_hit<O: Observer>(
         &self,

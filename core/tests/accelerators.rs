@@ -22,7 +22,7 @@ use octray_core::vec3::Axis;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, Quantised, quantise};
 use octray_prepare::saturation::PerThread;
-use octray_scenes::generate::{Kind, Spec};
+use octray_scenes::generate::{SceneKind, Spec};
 use rays::{Rays, sign};
 
 /// Scenes in each arithmetic, and rays in each scene: more than a million rays in all.
@@ -162,7 +162,7 @@ fn extreme<S: Quantize>(rng: &mut Rng) -> S {
 fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
     let scene = if seed % 8 == 7 {
         let spec = Spec {
-            kind: Kind::Soup,
+            kind: SceneKind::Soup,
             objects: 10 + seed as usize % 90,
         };
         octray_scenes::generate(spec, seed)

@@ -12,7 +12,7 @@ use octray_core::vec3::Vec3;
 use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, quantise};
 use octray_prepare::tree::{Growth, OwnedCompactBvh8, every_object};
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 
 const VIEW: RenderSettings = RenderSettings {
     size: Some((64, 48)),
@@ -30,7 +30,7 @@ fn glass() -> Prepared<f32> {
 }
 
 fn grown(objects: usize) -> (Prepared<f32>, OwnedCompactBvh8) {
-    let kind = Kind::Soup;
+    let kind = SceneKind::Soup;
     let mut prepared = quantise::<f32>(&generate(Spec { kind, objects }, 3), &VIEW).unwrap();
     let options = BuildOptions {
         depth: 24,

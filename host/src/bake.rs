@@ -1,4 +1,4 @@
-//! `octray bake`: a scene as constant tables, Rust source for a program without files.
+//! `octray bake`: turns a scene into constant tables, Rust source for a program without a file system.
 
 use octray_prepare::bake::{BakeOptions, bake};
 use octray_prepare::plan::Plan;
@@ -15,22 +15,22 @@ use std::path::{Path, PathBuf};
 pub struct BakeJob {
     /// The scene file.
     pub scene: PathBuf,
-    /// What to render. Of the tree only the leaf size counts.
+    /// What to render. Of the tree's settings only the leaf size is used.
     pub settings: RenderSettings,
     /// The tree.
     pub tree: FirmwareTree,
     /// The target's triple, if it is known.
     pub target: Option<String>,
-    /// A plan that says all of these.
+    /// A plan that replaces all of these settings.
     pub plan: Option<PathBuf>,
     /// The Rust source; standard output if `None`.
     pub output: Option<PathBuf>,
 }
 
-/// Bake the scene and write the source.
+/// Bakes the scene and writes the source.
 ///
 /// # Errors
-/// When the scene is refused, does not fit the arithmetic or the tree, or the source cannot be written.
+/// If the scene is refused, does not fit the arithmetic or the tree, or the source cannot be written.
 pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
@@ -72,10 +72,10 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
 }
 
-/// Reads a plan that `octray plan --emit` has written.
+/// Reads a plan that `octray plan --emit` wrote.
 ///
 /// # Errors
-/// If it cannot be read, or is none.
+/// If it cannot be read, or is not a plan.
 pub fn read_plan(path: &Path) -> Result<Plan, Error> {
     let text = fs::read_to_string(path).map_err(|cause| Error::read(path, cause))?;
     text.parse()

@@ -1,4 +1,4 @@
-//! `octray check`: what is in a scene, or what is wrong with it.
+//! `octray check`: prints what is in a scene, or what is wrong with it.
 
 use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
@@ -6,10 +6,10 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use std::path::PathBuf;
 
-/// Read each scene and tell in one line on standard output what is in it.
+/// Reads each scene and prints one line per scene with its contents.
 ///
 /// # Errors
-/// [`Error::Scene`] with the mistakes of all scenes that were refused, after the others were told.
+/// [`Error::Scene`] with the mistakes of all refused scenes, after the other scenes were reported.
 pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
     let mut refused = Vec::new();
     for path in scenes {

@@ -1,7 +1,7 @@
-//! The command line as it is typed: arguments, their help, and the values that each may have.
+//! The command line: arguments, their help texts, and the values that each may have.
 //!
-//! A command's arguments turn into a job that the command then runs; whatever is wrong with them is found
-//! here, before any work.
+//! A command's arguments become a job, which the command then runs. Errors in the arguments are reported here, before
+//! any work.
 
 mod bake;
 mod check;
@@ -39,9 +39,9 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene to a picture
     Render(RenderArgs),
-    /// Read scenes, and say what is in them or what is wrong with them
+    /// Check scenes: print what is in them or what is wrong with them
     Check(CheckArgs),
-    /// Turn a scene into constant tables for a program without files
+    /// Turn a scene into constant tables for a program without a file system
     Bake(BakeArgs),
     /// Generate a scene of any size
     Generate(GenerateArgs),

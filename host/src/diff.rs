@@ -1,4 +1,4 @@
-//! `octray diff`: how far apart two pictures are, and whether that is within bounds.
+//! `octray diff`: measures how far apart two pictures are, and checks limits.
 
 use octray_render::counts::thousands;
 use octray_render::error::Error;
@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
 
-/// What to compare, and what to tell.
+/// What to compare, and what to print.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiffJob {
     /// The first picture.
@@ -25,12 +25,12 @@ pub struct DiffJob {
     /// Whether to print JSON rather than text.
     pub json: bool,
     /// How far apart the pictures may be.
-    pub bounds: Bounds,
+    pub limits: DiffLimits,
 }
 
-/// How far apart two pictures may be; no bound where `None`.
+/// Limits on the difference of two pictures; `None` means no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bounds {
+pub struct DiffLimits {
     /// The largest root-mean-square error, in levels.
     pub rmse: Option<f64>,
     /// The smallest peak signal-to-noise ratio, in dB.
@@ -46,17 +46,17 @@ pub struct Bounds {
 /// A number of pixels, absolute or relative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Share {
-    /// That many.
+    /// A number of pixels.
     Pixels(u64),
-    /// That many in a hundred, 0 to 100.
+    /// Per cent of all pixels, 0 to 100.
     Percent(f64),
 }
 
-/// Compare, tell on standard output, and write the heat map.
+/// Compares the pictures, prints the result, and writes the heat map.
 ///
 /// # Errors
-/// When a picture cannot be read, they differ in size, something cannot be written, or
-/// ([`Error::Bounds`], after everything is told) a bound is exceeded.
+/// If a picture cannot be read, the sizes differ, something cannot be written, or a limit is exceeded
+/// ([`Error::Bounds`], after the result was printed).
 pub fn run(job: &DiffJob, interrupt: &Interrupt) -> Result<(), Error> {
     let (a, b) = (picture::read(&job.a)?, picture::read(&job.b)?);
     let difference = Difference::between(&a, &b)?;
@@ -64,14 +64,14 @@ pub fn run(job: &DiffJob, interrupt: &Interrupt) -> Result<(), Error> {
         interrupt.check()?;
         target.write(&heat::map(&a, &b)?, job.ras_depth, interrupt)?;
     }
-    let exceeded = job.bounds.exceeded(&difference);
+    let exceeded = job.limits.exceeded(&difference);
     output::write_stdout(interrupt, |out| {
         if job.json {
-            let report = Report::new(job, a.size(), &difference, exceeded.is_empty());
+            let report = DiffReport::new(job, a.size(), &difference, exceeded.is_empty());
             serde_json::to_writer(&mut *out, &report)?;
             writeln!(out)
         } else {
-            write!(out, "{}", Table(&difference))
+            write!(out, "{}", DiffTable(&difference))
         }
     })?;
     if exceeded.is_empty() {
@@ -81,8 +81,8 @@ pub fn run(job: &DiffJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
 }
 
-impl Bounds {
-    /// A sentence for each bound that `difference` exceeds.
+impl DiffLimits {
+    /// Returns a sentence for each limit that `difference` exceeds.
     pub fn exceeded(&self, difference: &Difference) -> Vec<String> {
         let (rmse, psnr, pixels) = (difference.rmse(), difference.psnr(), difference.pixels);
         let most = |what: &str, bound: Option<Share>, found: u64| {
@@ -115,7 +115,7 @@ impl Bounds {
 }
 
 impl Share {
-    /// Whether `found` of `all` pixels are not more than this.
+    /// Returns whether `found` of `all` pixels is within this limit.
     pub fn allows(self, found: u64, all: u64) -> bool {
         match self {
             Self::Pixels(most) => found <= most,
@@ -133,13 +133,13 @@ impl fmt::Display for Share {
     }
 }
 
-/// The object that `--json` prints.
+/// The JSON object of `--json`.
 #[derive(Serialize)]
-struct Report {
+struct DiffReport {
     a: String,
     b: String,
     size: (u32, u32),
-    /// `null` for equal pictures, whose ratio is infinite.
+    /// `null` for equal pictures: their PSNR is infinite.
     psnr: Option<f64>,
     rmse: f64,
     largest: u8,
@@ -148,7 +148,7 @@ struct Report {
     within_bounds: bool,
 }
 
-impl Report {
+impl DiffReport {
     fn new(job: &DiffJob, size: (u32, u32), difference: &Difference, within_bounds: bool) -> Self {
         Self {
             a: job.a.display().to_string(),
@@ -164,10 +164,10 @@ impl Report {
     }
 }
 
-/// Shows a difference as aligned lines, each ended.
-struct Table<'a>(&'a Difference);
+/// Displays a difference as aligned lines, each with a line end.
+struct DiffTable<'a>(&'a Difference);
 
-impl fmt::Display for Table<'_> {
+impl fmt::Display for DiffTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let difference = self.0;
         let psnr = match difference.is_zero() {
@@ -200,8 +200,8 @@ mod tests {
     };
 
     #[test]
-    fn a_bound_that_is_just_met_is_not_exceeded() {
-        let met = Bounds {
+    fn a_limit_that_is_just_met_is_not_exceeded() {
+        let met = DiffLimits {
             rmse: Some(2.0),
             psnr: Some(42.11),
             largest: Some(9),
@@ -209,12 +209,12 @@ mod tests {
             beyond_8: Some(Share::Pixels(1)),
         };
         assert!(met.exceeded(&DIFFERENCE).is_empty());
-        assert!(Bounds::default().exceeded(&DIFFERENCE).is_empty());
+        assert!(DiffLimits::default().exceeded(&DIFFERENCE).is_empty());
     }
 
     #[test]
-    fn each_bound_exceeded_is_told() {
-        let tight = Bounds {
+    fn each_exceeded_limit_is_reported() {
+        let tight = DiffLimits {
             rmse: Some(1.9),
             psnr: Some(42.12),
             largest: Some(8),
@@ -238,9 +238,9 @@ mod tests {
             largest: 0,
             ..DIFFERENCE
         };
-        let bounds = Bounds {
+        let bounds = DiffLimits {
             psnr: Some(f64::MAX),
-            ..Bounds::default()
+            ..DiffLimits::default()
         };
         assert!(bounds.exceeded(&equal).is_empty());
     }

@@ -1,4 +1,4 @@
-//! `octray generate`: a scene of any size from a seed.
+//! `octray generate`: writes a scene of any size, made from a seed.
 
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -12,16 +12,16 @@ use std::path::PathBuf;
 pub struct GenerateJob {
     /// The kind and the number of objects.
     pub spec: Spec,
-    /// Where the random numbers start.
+    /// The seed of the random numbers.
     pub seed: u64,
     /// The scene file; standard output if `None`.
     pub output: Option<PathBuf>,
 }
 
-/// Generate the scene and write it, under a comment that tells how it was made.
+/// Generates the scene and writes it. A comment at the top states the command that made it.
 ///
 /// # Errors
-/// When it cannot be written, or writing is interrupted.
+/// If it cannot be written, or writing is interrupted.
 pub fn run(job: &GenerateJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;

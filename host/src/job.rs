@@ -1,4 +1,4 @@
-//! What to render and how: a command line that has been checked.
+//! The job of `octray render`: a checked command line.
 
 use octray_prepare::RenderSettings;
 use octray_render::picture::{RasDepth, Target};
@@ -6,7 +6,7 @@ use octray_render::schedule::Schedule;
 use std::path::PathBuf;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
-/// Everything `octray render` was asked for. Values are in the ranges given; nothing contradicts.
+/// Everything that `octray render` was asked to do. Values are in range and do not contradict each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderJob {
     /// The scene file.
@@ -25,13 +25,13 @@ pub struct RenderJob {
     pub stats: StatsFormat,
 }
 
-/// In which form statistics are printed.
+/// The form in which statistics are printed.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum StatsFormat {
-    /// A summary to read.
+    /// A readable summary.
     #[default]
     Text,
     /// One JSON object.

@@ -1,9 +1,9 @@
 //! The command `octray`, as a library so that tests can call it.
 //!
-//! Raw arguments ([`cli`]) become a checked job, which a command runs: [`render`], [`check`], [`mod@bake`],
-//! [`mod@generate`], [`diff`], or one of the laboratory's. [`launch`] turns what comes of it into an exit code.
-//! [`stats`] and [`summary`] are what `render` reports; `ranks`, with the feature `mpi`, spreads a rendering over the
-//! ranks of an MPI job.
+//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`check`], [`mod@bake`],
+//! [`mod@generate`], [`diff`], or a command of the laboratory. [`main`] turns the result into an exit code. [`stats`]
+//! and [`summary`] are what `render` reports; `ranks`, with the feature `mpi`, distributes a rendering over the ranks
+//! of an MPI job.
 
 pub mod bake;
 pub mod check;

@@ -1,4 +1,4 @@
-//! The command `octray`; all it does is in the library.
+//! The command `octray`; the library holds all of it.
 
 fn main() -> std::process::ExitCode {
     octray::main(std::env::args_os())

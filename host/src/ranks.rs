@@ -1,10 +1,10 @@
-//! A picture spread over the ranks of an MPI job: the first rank reads the scene, deals tiles, traces some
-//! itself and writes the picture; the others need no files.
+//! Distributes a picture over the ranks of an MPI job. The first rank reads the scene, hands out tiles, traces some
+//! itself and writes the picture; the other ranks need no files.
 //!
-//! The scene is broadcast once, parsed. A rank has two tiles in hand, so it need not wait for the next one while
-//! its answer is on the way, and puts its results into a buffer, so it need not wait until they are taken. Every rank
-//! traces on one thread, and the first answers the others between its own tiles. If a rank dies, `mpirun` says so
-//! and ends the others; the picture is written only when all of it is there.
+//! The parsed scene is broadcast once. A rank holds two tiles, so that it need not wait for the next one while a result
+//! is in flight, and sends its results from a buffer, so that it need not wait until they are received. Every rank
+//! traces on one thread; the first rank answers the others between its own tiles. If a rank dies, `mpirun` reports it
+//! and ends the others; a picture is written only when it is complete.
 
 mod lead;
 mod serve;
@@ -28,39 +28,39 @@ use std::borrow::Cow;
 use std::thread;
 use std::time::Duration;
 
-/// What a rank asks for at first: a tile.
+/// Tag of a rank's first requests for a tile.
 const REQUEST: i32 = 1;
-/// A tile that was traced: its number and its pixels. It asks for another one.
+/// Tag of a traced tile: its number and its pixels. It also requests another tile.
 const RESULT: i32 = 2;
-/// What a rank counted, when it has no more tiles.
+/// Tag of a rank's counts, sent when it has no more tiles.
 const TALLY: i32 = 3;
-/// The number of a tile to be traced, or [`NONE`].
+/// Tag of the number of a tile to trace, or [`NONE`].
 const PACKET: i32 = 4;
 
-/// No tile is left.
+/// The number that means that no tile is left.
 const NONE: u32 = u32::MAX;
 
-/// Tiles that a rank has in hand.
+/// Number of tiles that a rank holds.
 const IN_HAND: usize = 2;
 
-/// Bytes that a message in a buffer takes beside its own: at least MPI_BSEND_OVERHEAD of the MPI libraries there are,
-/// which ask for 128 or fewer.
+/// Bytes that a buffered message takes beyond its contents: at least MPI_BSEND_OVERHEAD, which is 128 or less in known
+/// MPI libraries.
 const OVERHEAD: usize = 512;
 
-/// For how long a rank sleeps when there is no message.
+/// How long a rank sleeps when there is no message.
 const PAUSE: Duration = Duration::from_micros(20);
 
-/// All that a rank needs to know.
+/// The work of a rank.
 #[derive(Serialize, Deserialize)]
 struct Plan<'a> {
     scene: Cow<'a, Scene>,
     settings: RenderSettings,
     shape: TileSize,
-    /// Whether intensities are wanted beside levels.
+    /// Whether intensities are returned beside levels.
     intensities: bool,
 }
 
-/// What a rank did.
+/// What a rank counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Tally {
     rays: [u64; 4],
@@ -72,7 +72,7 @@ struct Tally {
     saturations: u64,
     /// Rays and nodes that found no room, shadow rays to lights beyond the shadow cache.
     dropped: [u64; 3],
-    /// Seconds in which it traced.
+    /// Seconds of tracing.
     busy: f64,
 }
 
@@ -126,11 +126,11 @@ impl Tally {
     }
 }
 
-/// Do `job` together with the other ranks; every rank calls this.
+/// Runs `job` together with the other ranks; every rank calls this.
 ///
 /// # Errors
-/// On the first rank what [`render::run`] fails with. [`Error::Failed`] when MPI cannot be started, or the
-/// ranks are ended before the picture is done.
+/// On the first rank those of [`render::run`]. [`Error::Failed`] if MPI cannot be started, or the ranks are ended
+/// before the picture is complete.
 pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
     let mut universe = mpi::initialize().ok_or_else(|| failed("MPI cannot be started".into()))?;
     let world = universe.world();
@@ -150,11 +150,11 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
         }
         rank => match serve::serve(&mut universe, interrupt) {
             Ok(()) => Ok(()),
-            // The first rank says it for all.
+            // The first rank reports it.
             Err(Error::Interrupted) => std::process::exit(crate::INTERRUPTED.into()),
             Err(error) => {
-                let told = Err(failed(format!("rank {rank}: {error}")));
-                return abandon(universe, told);
+                let failure = Err(failed(format!("rank {rank}: {error}")));
+                return abandon(universe, failure);
             }
         },
     };
@@ -162,20 +162,20 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
     done
 }
 
-/// Ends without a farewell to the ranks that are still at work: they would never answer it. `mpirun` ends them.
+/// Ends without MPI's shutdown, because ranks that still work would never take part in it. `mpirun` ends them.
 fn abandon(universe: mpi::environment::Universe, done: Result<(), Error>) -> Result<(), Error> {
     std::mem::forget(universe);
     done.map_err(|error| match error {
         Error::Interrupted => failed(
-            "the ranks were ended before the picture was done, and mpirun tells why; no picture was written"
+            "the ranks were ended before the picture was complete; mpirun states why; no picture was written"
                 .into(),
         ),
         error => error,
     })
 }
 
-/// Bytes of the buffer that holds all results that a rank may have sent and that are not answered yet; `None` if
-/// that is more than MPI can count.
+/// Returns the bytes of a buffer for all results that a rank may have sent without an answer yet, or `None` if MPI
+/// cannot count them.
 fn buffer(largest: &Region, intensities: bool) -> Option<usize> {
     let pixels = largest.columns.len().checked_mul(largest.rows.len())?;
     let pixel = match intensities {
@@ -183,14 +183,14 @@ fn buffer(largest: &Region, intensities: bool) -> Option<usize> {
         false => size_of::<Level>(),
     };
     let result = pixels.checked_mul(pixel)?.checked_add(size_of::<u32>())?;
-    // Twice as many as are in hand, as MPI may not have noticed yet that the answered ones are gone.
+    // Twice the tiles in hand, because MPI may not have freed answered results yet.
     let bytes = (result + OVERHEAD).checked_mul(2 * IN_HAND)?;
     i32::try_from(bytes).is_ok().then_some(bytes)
 }
 
-/// Hands what the first rank has to all others.
+/// Broadcasts a value of the first rank to all others.
 fn broadcast<T: Serialize>(world: &SimpleCommunicator, value: Option<&T>) {
-    // It fails only for types that postcard cannot write, and these it can.
+    // Serialising fails only for types that postcard does not support; it supports these.
     let mut bytes = postcard::to_stdvec(&value).unwrap_or_default();
     let mut length = bytes.len() as u64;
     let first = world.process_at_rank(0);
@@ -198,7 +198,7 @@ fn broadcast<T: Serialize>(world: &SimpleCommunicator, value: Option<&T>) {
     first.broadcast_into(&mut bytes[..]);
 }
 
-/// What the first rank broadcasts.
+/// Receives what the first rank broadcasts.
 fn receive_broadcast(world: &SimpleCommunicator) -> Vec<u8> {
     let first = world.process_at_rank(0);
     let mut length = 0_u64;
@@ -208,9 +208,9 @@ fn receive_broadcast(world: &SimpleCommunicator) -> Vec<u8> {
     bytes
 }
 
-/// The next message from `source`, if one has come.
+/// Returns the next message from `source`, if one has arrived.
 fn arrived(source: &impl Source) -> Option<(Message, Status)> {
-    // The first look may find nothing and only let MPI take in what has come: Open MPI looks first, then takes in.
+    // The first probe may find nothing and only let MPI make progress: Open MPI probes first, then receives.
     let look = || source.immediate_matched_probe();
     look().or_else(look)
 }
@@ -228,7 +228,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_buffer_has_room_for_what_may_be_on_its_way() {
+    fn a_buffer_holds_all_results_in_flight() {
         let square = |side| Region {
             columns: 0..side,
             rows: 0..side,

@@ -1,4 +1,4 @@
-//! `octray render`: read a scene, have it traced, write the picture, tell the cost.
+//! `octray render`: reads a scene, has it traced, writes the picture, prints statistics.
 
 use crate::job::{RenderJob, StatsFormat};
 use crate::stats::{Dropped, Seconds, Stats};
@@ -14,7 +14,7 @@ use octray_render::stats::Rays;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
 
-/// Traces what a job asks for, on threads.
+/// Traces a job on threads.
 ///
 /// # Errors
 /// As [`render::render_with`].
@@ -35,11 +35,11 @@ pub fn trace(
     )
 }
 
-/// Do `job`, the tracing itself being done by `trace`.
+/// Runs `job`; `trace` does the tracing.
 ///
 /// # Errors
-/// When the scene is refused, tracing fails or is interrupted, or something cannot be written. Whether the
-/// picture can be written at all is found out first.
+/// If the scene is refused, tracing fails or is interrupted, or something cannot be written. Whether the picture can be
+/// written is tested before tracing.
 pub fn run(
     job: &RenderJob,
     interrupt: &Interrupt,
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_tracer_sees_is_in_the_file() {
+    fn the_file_holds_the_traced_picture() {
         let folder = tempfile::tempdir().unwrap();
         let job = job(folder.path(), SCENE, "a.png");
         run(&job, &Interrupt::new(), |scene, _, _, _| red(scene)).unwrap();

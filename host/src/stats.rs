@@ -1,4 +1,4 @@
-//! What a rendering cost: the object that `--stats json` prints.
+//! Statistics of a rendering: the object that `--stats json` prints.
 
 use octray_core::observe::Counters;
 use octray_prepare::format::{Arith, Format};
@@ -7,13 +7,13 @@ use octray_render::renderer::TreeStats;
 use octray_render::stats::{Rays, Work};
 use serde::{Serialize, Serializer};
 
-/// The statistics of one rendering. Serialised it has the fields of the JSON object, in this order; those
-/// that are for the summary only are left out.
+/// The statistics of one rendering. The JSON object has the serialised fields, in this order; the summary prints the
+/// others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stats {
     /// The scene file as it was named.
     pub scene: String,
-    /// What is in it.
+    /// The scene's contents.
     #[serde(skip)]
     pub facts: SceneCounts,
     /// The picture file as it was named.
@@ -23,23 +23,23 @@ pub struct Stats {
     pub arith: Arith,
     /// The number format that was used.
     pub format: Format,
-    /// The scene was scaled by 2 to this power to fit the format.
+    /// The power of two by which the scene was scaled to fit the format.
     #[serde(skip)]
     pub scale: i32,
-    /// What the format is too coarse for, if anything.
+    /// What is too fine for the format, if anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub too_fine: Option<String>,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// Rays by kind.
     pub rays: Rays,
-    /// Voxels or nodes that rays went through.
+    /// Visited nodes, or cells of an octree.
     pub steps: u64,
-    /// Objects that rays were tested against.
+    /// Tests of a ray against an object.
     pub tests: u64,
-    /// Eye rays that met an object.
+    /// Primary rays that hit an object.
     pub hits: u64,
-    /// Fixed-point results that had to be clamped to the format's range.
+    /// Fixed-point results that were clamped to the format's range.
     pub saturations: u64,
     /// What found no room.
     pub dropped: Dropped,
@@ -47,7 +47,7 @@ pub struct Stats {
     pub tree: TreeStats,
     /// Time per stage.
     pub seconds: Seconds,
-    /// How it was done.
+    /// How the work was shared.
     #[serde(flatten)]
     pub work: Work,
     /// [`octray_render::picture::Picture::hash`] of the picture; 16 hexadecimal digits in JSON.
@@ -77,12 +77,12 @@ impl Dropped {
     }
 }
 
-/// Wall-clock time per stage, in seconds.
+/// Wall-clock time of each stage, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
     /// Reading the scene.
     pub parse: f64,
-    /// Converting it and building the stats.
+    /// Converting it and building the tree.
     pub build: f64,
     /// Tracing.
     pub render: f64,
@@ -99,7 +99,7 @@ pub(crate) mod tests {
     use octray_render::schedule::Schedule;
     use octray_render::scheduler::Policy;
 
-    /// Statistics in which every number is another.
+    /// Statistics in which all numbers are different.
     pub(crate) fn example() -> Stats {
         Stats {
             scene: "scenes/figure-19.scene".into(),

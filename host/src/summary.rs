@@ -1,11 +1,11 @@
-//! The statistics of a rendering as a summary to read.
+//! The statistics of a rendering as a readable summary.
 
 use crate::stats::Stats;
 use octray_render::counts::thousands;
 use octray_render::stats::Messages;
 use std::fmt;
 
-/// Shows [`Stats`] as aligned lines, each ended.
+/// Displays [`Stats`] as aligned lines, each with a line end.
 pub struct Summary<'a>(pub &'a Stats);
 
 impl fmt::Display for Summary<'_> {
@@ -147,7 +147,7 @@ fn work(stats: &Stats) -> String {
     )
 }
 
-/// What came back from other ranks.
+/// Describes the tiles that other ranks returned.
 fn messages(sent: &Messages) -> String {
     let Messages {
         count,
@@ -156,7 +156,7 @@ fn messages(sent: &Messages) -> String {
         hand_out,
     } = *sent;
     format!(
-        "{} tiles in {} bytes came back from other ranks, {} or {} instructions each for the first one",
+        "other ranks returned {} tiles in {} bytes; each took the first rank {} or {} instructions",
         thousands(count),
         thousands(bytes),
         duration(seconds / count.max(1) as f64),
@@ -164,7 +164,7 @@ fn messages(sent: &Messages) -> String {
     )
 }
 
-/// For how long the threads had nothing to do.
+/// Describes how long the threads were idle.
 fn idle(idle: &[f64]) -> String {
     let longest = idle.iter().copied().fold(0.0, f64::max);
     let shortest = idle.iter().copied().fold(longest, f64::min);
@@ -178,7 +178,7 @@ fn idle(idle: &[f64]) -> String {
     }
 }
 
-/// Seconds to three digits, in a unit that suits.
+/// Formats seconds with three digits and a suitable unit.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.000_999_5 => format!("{:.0} us", s * 1e6),
@@ -196,7 +196,7 @@ mod tests {
     use snapbox::{assert_data_eq, str};
 
     #[test]
-    fn the_summary_reads_well() {
+    fn the_summary_has_the_documented_form() {
         assert_data_eq!(
             Summary(&example()).to_string(),
             str![[r#"
@@ -222,7 +222,7 @@ idle          500 us, 0 us
     }
 
     #[test]
-    fn a_full_arena_is_told_and_plain_arithmetic_named_once() {
+    fn a_full_arena_is_reported_and_plain_arithmetic_named_once() {
         let mut stats = example();
         (stats.arith, stats.format, stats.scale) =
             (octray_prepare::Arith::F32, octray_prepare::Format::F32, 0);
@@ -239,7 +239,7 @@ idle          500 us, 0 us
     }
 
     #[test]
-    fn messages_between_ranks_are_told() {
+    fn messages_between_ranks_are_reported() {
         let mut stats = example();
         stats.work.messages = Some(Messages {
             count: 1000,
@@ -249,20 +249,20 @@ idle          500 us, 0 us
         });
         let text = Summary(&stats).to_string();
         assert!(text.contains("2 ranks, 64 tiles"), "{text}");
-        let told = "messages      1,000 tiles in 772,000 bytes came back from other ranks, \
+        let expected = "messages      1,000 tiles in 772,000 bytes came back from other ranks, \
             4 us or 34,568 instructions each";
-        assert!(text.contains(told), "{text}");
+        assert!(text.contains(expected), "{text}");
     }
 
     #[test]
-    fn the_idle_time_of_many_threads_is_told_in_short() {
+    fn the_idle_time_of_many_threads_is_a_range() {
         let times: Vec<_> = (1..=9).map(|i| f64::from(i) * 1e-3).collect();
         assert_eq!(idle(&times), "1.0 ms to 9.0 ms per thread");
         assert_eq!(idle(&times[..2]), "1.0 ms, 2.0 ms");
     }
 
     #[test]
-    fn durations_have_a_unit_that_suits() {
+    fn durations_have_a_suitable_unit() {
         let cases = [
             (0.000_001, "1 us"),
             (0.000_999_6, "1.0 ms"),

@@ -36,15 +36,15 @@ fn chart(folder: &Path, line: &str) -> Command {
     command
 }
 
-/// What it printed, or `None` if this machine lacks what counts.
+/// Returns the output, or `None` if a tool is missing on this machine.
 fn run(folder: &Path, line: &str) -> Option<Output> {
     let output = chart(folder, line).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    if told.contains(" is missing") {
-        eprintln!("skipped: {told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    if stderr.contains(" is missing") {
+        eprintln!("skipped: {stderr}");
         return None;
     }
-    assert!(output.status.success(), "{told}");
+    assert!(output.status.success(), "{stderr}");
     Some(output)
 }
 
@@ -179,7 +179,7 @@ fn a_board_counts_for_a_chart_what_it_counts_for_measure() {
 }
 
 #[test]
-fn a_missing_tool_is_told_with_the_command_that_installs_it() {
+fn a_missing_tool_is_reported_with_the_command_that_installs_it() {
     let folder = folder();
     for (cost, expected) in [
         (
@@ -196,15 +196,15 @@ fn a_missing_tool_is_told_with_the_command_that_installs_it() {
             .env("PATH", "")
             .output()
             .unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{told}");
-        assert!(told.contains(expected), "{told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert!(stderr.contains(expected), "{stderr}");
     }
     assert!(!folder.path().join("a.csv").exists());
 }
 
 #[test]
-fn what_does_not_fit_is_told_and_a_chart_of_nothing_is_no_chart() {
+fn what_does_not_fit_is_reported_and_an_empty_chart_is_refused() {
     let folder = TempDir::new().unwrap();
     let large = SCENE.replace("p 4  -5 0 -5  5 0 -5", "p 4  -5000 0 -5  5 0 -5");
     fs::write(
@@ -218,9 +218,9 @@ fn what_does_not_fit_is_told_and_a_chart_of_nothing_is_no_chart() {
     assert!(text.contains("no point: i4f28: "), "{text}");
     let nothing = format!("{line} --arith i4f28 -o a.svg");
     let output = chart(folder.path(), &nothing).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
-    assert!(told.contains("there is no point to draw: "), "{told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert!(stderr.contains("there is no point to draw: "), "{stderr}");
     assert!(!folder.path().join("a.svg").exists());
 }
 
@@ -246,8 +246,8 @@ fn bad_usage_is_refused() {
         ),
     ] {
         let output = chart(folder.path(), line).output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{line}: {told}");
-        assert!(told.contains(expected), "{line}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
     }
 }

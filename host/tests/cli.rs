@@ -1,182 +1,13 @@
 //! The command end to end: what it prints, what it writes, and its exit codes.
 
-use snapbox::cmd::{Command, cargo_bin};
+mod common;
+
+use common::{names, octray, pictures};
+use snapbox::cmd::cargo_bin;
 use snapbox::{assert_data_eq, str};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
-}
-
-fn ppm(levels: &[[u8; 3]]) -> Vec<u8> {
-    let mut bytes = format!("P6\n{} 1\n255\n", levels.len()).into_bytes();
-    bytes.extend(levels.as_flattened());
-    bytes
-}
-
-/// Three pictures: `a.ppm`, `b.ppm` of the same size, and `wide.ppm`.
-fn pictures() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    let write = |name, levels: &[_]| fs::write(folder.path().join(name), ppm(levels)).unwrap();
-    write("a.ppm", &[[0, 0, 0], [10, 10, 10], [100, 100, 100]]);
-    write("b.ppm", &[[0, 1, 0], [12, 10, 10], [100, 100, 90]]);
-    write("wide.ppm", &[[0; 3]; 4]);
-    folder
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
-
-mod diff {
-    use super::*;
-
-    #[test]
-    fn tells_how_far_apart_two_pictures_are() {
-        octray(pictures().path(), "diff a.ppm b.ppm")
-            .assert()
-            .success()
-            .stderr_eq("")
-            .stdout_eq(str![[r#"
-PSNR                37.46 dB
-RMSE                3.4157 levels
-largest difference  10 levels
-beyond 1 level      2 of 3 pixels (66.667 %)
-beyond 8 levels     1 of 3 pixels (33.333 %)
-
-"#]]);
-    }
-
-    #[test]
-    fn equal_pictures_have_an_infinite_ratio_which_is_null_in_json() {
-        let folder = pictures();
-        octray(folder.path(), "diff a.ppm a.ppm --max-rmse 0 --min-psnr 99")
-            .assert()
-            .success()
-            .stdout_eq(str![[r#"
-PSNR                infinite: the pictures are equal
-RMSE                0.0000 levels
-largest difference  0 levels
-beyond 1 level      0 of 3 pixels (0.000 %)
-beyond 8 levels     0 of 3 pixels (0.000 %)
-
-"#]]);
-        octray(folder.path(), "diff a.ppm a.ppm --json")
-            .assert()
-            .success()
-            .stdout_eq(str![[r#"
-{"a":"a.ppm","b":"a.ppm","size":[3,1],"psnr":null,"rmse":0.0,"largest":0,"beyond_1":0,"beyond_8":0,"within_bounds":true}
-
-"#]]);
-    }
-
-    #[test]
-    fn an_exceeded_bound_is_told_after_the_numbers() {
-        octray(
-            pictures().path(),
-            "diff a.ppm b.ppm --json --max-difference 9 --max-beyond-1 60% --max-beyond-8 1",
-        )
-        .assert()
-        .code(1)
-        .stdout_eq(str![[r#"
-{"a":"a.ppm","b":"b.ppm","size":[3,1],"psnr":37.461335712[..],"rmse":3.4156502553[..],"largest":10,"beyond_1":2,"beyond_8":1,"within_bounds":false}
-
-"#]])
-        .stderr_eq(str![[r#"
-error: the largest difference is 10 levels, at most 9 allowed
-error: pixels that differ by more than one level: 2, at most 60 % allowed
-
-"#]]);
-    }
-
-    #[test]
-    fn the_heat_map_is_a_picture_of_the_same_size() {
-        let folder = pictures();
-        for name in ["heat.png", "heat.ppm", "heat.pfm", "heat.ras"] {
-            octray(folder.path(), &format!("diff a.ppm b.ppm -o {name}"))
-                .assert()
-                .success();
-            octray(
-                folder.path(),
-                &format!("diff {name} heat.png --max-difference 0"),
-            )
-            .assert()
-            .success();
-        }
-    }
-
-    #[test]
-    fn pictures_of_different_sizes_are_not_compared() {
-        let folder = pictures();
-        octray(folder.path(), "diff a.ppm wide.ppm -o heat.png")
-            .assert()
-            .code(1)
-            .stdout_eq("")
-            .stderr_eq(str![[r#"
-error: the pictures differ in size: 3x1 and 4x1
-
-"#]]);
-        assert_eq!(names(folder.path()), ["a.ppm", "b.ppm", "wide.ppm"]);
-    }
-
-    #[test]
-    fn what_cannot_be_read_is_named_with_the_cause() {
-        let folder = pictures();
-        let cut = &ppm(&[[1; 3]; 9])[..20];
-        fs::write(folder.path().join("cut.ppm"), cut).unwrap();
-        fs::write(folder.path().join("text.png"), "no picture").unwrap();
-        fs::write(folder.path().join("empty.png"), "").unwrap();
-        for (name, cause) in [
-            ("missing.png", "No such file or directory (os error 2)"),
-            ("cut.ppm", "the picture is cut short"),
-            (
-                "text.png",
-                "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
-            ),
-            ("empty.png", "the file is empty"),
-            (".", "Is a directory (os error 21)"),
-        ] {
-            octray(folder.path(), &format!("diff a.ppm {name}"))
-                .assert()
-                .code(1)
-                .stderr_eq(format!("error: cannot read {name}: {cause}\n"));
-        }
-    }
-
-    #[test]
-    fn an_unknown_extension_is_bad_usage_naming_the_known_ones() {
-        octray(pictures().path(), "diff a.ppm b.ppm -o heat.bmp")
-            .assert()
-            .code(2)
-            .stdout_eq("")
-            .stderr_eq(str![[r#"
-error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .ppm, .pfm, .ras
-
-For more information, try '--help'.
-
-"#]]);
-    }
-
-    #[test]
-    fn a_folder_that_is_not_there_is_told() {
-        octray(pictures().path(), "diff a.ppm b.ppm -o no/heat.png")
-            .assert()
-            .code(1)
-            .stderr_eq(str![[r#"
-error: cannot write no/heat.png: No such file or directory (os error 2)
-
-"#]]);
-    }
-}
 
 mod check {
     use super::*;
@@ -184,7 +15,7 @@ mod check {
     const SCENE: &str = "v 0 0 -9\nl 1 1 1 1\nf 1 1 1 0 0 0 0 0 0 0 0 0\ns 0 0 5 1\n";
 
     #[test]
-    fn tells_what_is_in_each_scene() {
+    fn prints_the_contents_of_each_scene() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("a.scene"), SCENE).unwrap();
         octray(folder.path(), "check a.scene a.scene")
@@ -199,7 +30,7 @@ a.scene: 1 sphere, 1 surface, 1 light, 512 x 512 pixels
     }
 
     #[test]
-    fn one_bad_scene_does_not_keep_the_others_from_being_told() {
+    fn a_bad_scene_does_not_hide_the_others() {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("good.scene"), SCENE).unwrap();
         fs::write(
@@ -235,7 +66,7 @@ mod generate {
     use super::*;
 
     #[test]
-    fn every_kind_gives_a_scene_that_reads_back_with_the_wished_number_of_objects() {
+    fn every_kind_gives_a_readable_scene_with_the_requested_number_of_objects() {
         let folder = TempDir::new().unwrap();
         for (kind, facts) in [
             ("flake", "19 spheres, 1 polygon, [..]"),
@@ -261,7 +92,7 @@ mod generate {
     }
 
     #[test]
-    fn standard_output_gets_what_the_file_gets_and_the_seed_matters() {
+    fn standard_output_equals_the_file_and_the_seed_matters() {
         let folder = TempDir::new().unwrap();
         let made = |line: &str| {
             let output = octray(folder.path(), line).output().unwrap();
@@ -292,7 +123,7 @@ mod generate {
     }
 
     #[test]
-    fn a_folder_that_is_not_there_is_told() {
+    fn a_missing_folder_is_reported() {
         octray(Path::new("."), "generate soup -o no/a.scene")
             .assert()
             .code(1)
@@ -303,69 +134,10 @@ error: cannot write no/a.scene: No such file or directory (os error 2)
     }
 }
 
-mod schedule {
-    use super::*;
-
-    /// A ball in the upper half of the picture, under a light.
-    const SCENE: &str = "v 0 0 -9 resolution 64 64 l 0 99 -99 1\n\
-        f 1 1 1 0 0 0 0 0 0 0 0.5 0\ns 0 16 5 12\n";
-
-    #[test]
-    fn the_best_tiles_are_told_for_each_number_of_processors() {
-        let folder = TempDir::new().unwrap();
-        fs::write(folder.path().join("a.scene"), SCENE).unwrap();
-        octray(
-            folder.path(),
-            "schedule a.scene --processors 1,2 --tile-rows 1..4 --tiles 4 --policy static,dynamic",
-        )
-        .assert()
-        .success()
-        .stdout_eq(str![[r#"
-| processors | tiles |              static |             dynamic |
-|------------|---------|---------------------|---------------------|
-| 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
-| 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
-| 2          | strips  |        1.94 (1 row) |       1.98 (4 rows) |
-| 2          | tiles   | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
-
-"#]]);
-    }
-
-    #[test]
-    fn every_combination_is_in_the_json_object() {
-        let folder = TempDir::new().unwrap();
-        fs::write(folder.path().join("a.scene"), SCENE).unwrap();
-        let line = "schedule a.scene --processors 1..4 --tile-rows 2,8 --tiles 8 --json";
-        let output = octray(folder.path(), line).output().unwrap();
-        let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let runs = object["runs"].as_array().unwrap();
-        assert_eq!(runs.len(), 3 * 3 * 6);
-        for run in runs {
-            let speed_up = run["speed_up"].as_f64().unwrap();
-            let processors = run["processors"].as_f64().unwrap();
-            assert!(speed_up > 0.99 && speed_up < processors * 1.001, "{run}");
-        }
-    }
-
-    #[test]
-    fn wrong_values_are_bad_usage() {
-        for flags in [
-            "--processors 0",
-            "--tile-rows 4..1",
-            "--policy luck",
-            "--contention -1",
-        ] {
-            octray(Path::new("."), &format!("schedule a.scene {flags}"))
-                .assert()
-                .code(2);
-        }
-    }
-}
-
 mod results {
     use super::*;
 
-    /// The command is refused, telling `why`, and every file is as it was.
+    /// Checks that the command is refused with the message `why`, and that no file changes.
     fn refused(line: &str, why: &str) {
         let folder = pictures();
         fs::write(folder.path().join("a.scene"), "v 0 0 -9").unwrap();
@@ -388,7 +160,7 @@ mod results {
     }
 
     #[test]
-    fn what_is_read_is_not_replaced() {
+    fn inputs_are_not_replaced() {
         for (line, result, input) in [
             ("render a.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
             ("bake a.scene -o ./a.scene", "./a.scene", "a.scene"),
@@ -419,7 +191,7 @@ mod results {
     }
 
     #[test]
-    fn one_result_is_not_written_over_another() {
+    fn no_result_replaces_another() {
         for line in [
             "schedule a.scene -o c.svg --csv ./c.svg",
             "measure a.scene --csv c.svg --chart ./c.svg",
@@ -436,7 +208,7 @@ mod usage {
     use super::*;
 
     #[test]
-    fn help_goes_to_standard_output_and_complaints_do_not() {
+    fn help_goes_to_standard_output_and_errors_do_not() {
         octray(Path::new("."), "--help")
             .assert()
             .success()
@@ -453,7 +225,7 @@ mod usage {
     }
 
     #[test]
-    fn the_version_is_told() {
+    fn the_version_is_printed() {
         let expected = format!("octray {}\n", env!("CARGO_PKG_VERSION"));
         octray(Path::new("."), "--version")
             .assert()
@@ -476,7 +248,7 @@ mod streams {
     }
 
     #[test]
-    fn a_reader_that_went_away_is_no_failure() {
+    fn a_closed_pipe_is_no_failure() {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let output = diff(pictures().path())
@@ -490,7 +262,7 @@ mod streams {
     }
 
     #[test]
-    fn a_long_answer_may_be_cut_by_its_reader() {
+    fn a_reader_may_stop_before_the_end() {
         let mut child = Command::new(cargo_bin!("octray"))
             .args(["generate", "soup", "--count", "20000"])
             .stdout(Stdio::piped())

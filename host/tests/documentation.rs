@@ -1,4 +1,5 @@
-//! Every command in README and docs runs as written and prints what is shown; every link leads to a file.
+//! Checks that every command in README and docs runs as written and prints what is shown, and that every link has a
+//! target.
 #![cfg(feature = "lab")]
 
 use snapbox::cmd::cargo_bin;

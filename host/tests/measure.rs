@@ -1,5 +1,5 @@
-//! `octray measure` end to end: on two boards where their emulators are installed, and what is said
-//! where they are not.
+//! `octray measure` end to end: measurements on two boards if their emulators are installed, and the messages if they
+//! are not.
 #![cfg(feature = "lab")]
 
 use snapbox::cmd::cargo_bin;
@@ -20,26 +20,26 @@ fn measure(line: &str) -> Command {
     command
 }
 
-/// What it printed, or `None` if this machine lacks a target or an emulator.
+/// Returns the output, or `None` if a target or an emulator is missing on this machine.
 fn run(line: &str) -> Option<Output> {
     let output = measure(line).output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    if told.contains(" is missing: ") {
-        eprintln!("skipped: {told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    if stderr.contains(" is missing: ") {
+        eprintln!("skipped: {stderr}");
         return None;
     }
     Some(output)
 }
 
-/// What it wrote as JSON, having measured twice and told the same; `None` as [`run`].
+/// Returns the JSON of two identical runs; `None` as [`run`].
 fn twice(line: &str) -> Option<serde_json::Value> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.json");
     let mut results = Vec::new();
     for _ in 0..2 {
         let output = run(&format!("{line} --json {}", path.display()))?;
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{stderr}");
         results.push((output.stdout, fs::read(&path).unwrap()));
     }
     assert_eq!(results[0], results[1]);
@@ -55,34 +55,34 @@ fn bad_usage_is_refused() {
         ("--json a --csv a", "the results a and a are one file"),
     ] {
         let output = measure(line).output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{line}: {told}");
-        assert!(told.contains(expected), "{line}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
     }
 }
 
 #[test]
-fn a_missing_emulator_is_told_with_the_command_that_installs_it() {
+fn a_missing_emulator_is_reported_with_the_command_that_installs_it() {
     let output = measure("--targets m0,rv32imac")
         .env("PATH", "")
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
     for line in [
         "qemu-system-arm is missing: apt-get install qemu-system-arm",
         "qemu-system-riscv32 is missing: apt-get install qemu-system-misc",
     ] {
-        assert!(told.contains(line), "{told}");
+        assert!(stderr.contains(line), "{stderr}");
     }
 }
 
 #[test]
-fn a_missing_scene_is_told_before_anything_is_built() {
+fn a_missing_scene_is_reported_before_anything_is_built() {
     let output = measure("no.scene").env("PATH", "").output().unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
+    let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1));
-    assert!(told.contains("no.scene: no such file"), "{told}");
+    assert!(stderr.contains("no.scene: no such file"), "{stderr}");
 }
 
 #[test]
@@ -136,8 +136,8 @@ fn a_run_that_fails_is_never_a_number() {
         );
         let Some(output) = run(&line) else { return };
         assert_eq!(output.status.code(), Some(1), "{size}");
-        let told = fs::read_to_string(&csv).unwrap();
-        let row = told.lines().nth(1).unwrap();
+        let rows = fs::read_to_string(&csv).unwrap();
+        let row = rows.lines().nth(1).unwrap();
         let said = |what: &&&str| row.contains(&format!(",speed,{what}"));
         assert!(outcome.iter().any(|what| said(&what)), "{size}: {row}");
         assert!(row.contains(",,,,,,,"), "{size}: {row}");
@@ -154,7 +154,7 @@ fn kernels_are_measured_and_the_same_twice() {
         rows.iter().find(found).unwrap()
     };
     let cost = |arith, kernel| row(arith, kernel)["per_call"].as_f64().unwrap();
-    // One instruction of the core, if the call is taken off.
+    // One instruction of the core, without the call.
     assert_eq!(cost("auto", "add"), 1.0);
     for arith in ["f32", "auto"] {
         assert!(cost(arith, "add") < cost(arith, "div"));
@@ -163,7 +163,7 @@ fn kernels_are_measured_and_the_same_twice() {
         assert!(cost(arith, "hit sphere") < cost(arith, "hit cone"));
         assert!(cost(arith, "normalise") < cost(arith, "shaded light"));
         assert!(cost(arith, "voxel step") > 50.0);
-        // The inputs do what they are for: some rays hit and some miss, in either arithmetic.
+        // The inputs serve their purpose: in either arithmetic some rays hit and some miss.
         for shape in ["sphere", "triangle", "polygon", "cone", "box"] {
             let row = row(arith, &format!("hit {shape}"));
             let [hits, calls] = ["hits", "calls"].map(|name| row[name].as_u64().unwrap());

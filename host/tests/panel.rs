@@ -33,7 +33,7 @@ fn drawn(line: &str) -> Picture {
     picture::read(&folder.path().join("figure-22-panel.png")).unwrap()
 }
 
-/// The same scene by `octray render`.
+/// The same scene rendered by `octray render`.
 fn rendered(line: &str) -> Picture {
     let folder = TempDir::new().unwrap();
     let output = folder.path().join("a.png");
@@ -74,7 +74,7 @@ fn dithered_565_is_off_by_less_than_a_step_and_right_on_average() {
     let steps = [255_f64 / 31.0, 255.0 / 63.0, 255.0 / 31.0];
     for options in ["", "--no-dither"] {
         let shown = drawn(&format!("--no-overlay --panel 64x48 {options}"));
-        // The step's own rounding to 8 bits comes on top.
+        // Plus the step's own rounding to 8 bits.
         let bound = |i: usize| if options.is_empty() { steps[i] } else { steps[i] / 2.0 } + 1.0;
         assert!(differences(&shown, &truth).all(|d| (0..3).all(|i| f64::from(d[i]) < bound(i))));
     }
@@ -144,7 +144,7 @@ fn frames_show_the_picture_growing_by_a_strip() {
 }
 
 #[test]
-fn it_tells_what_the_overlay_does() {
+fn the_output_has_the_numbers_of_the_overlay() {
     let folder = TempDir::new().unwrap();
     panel(folder.path(), "--panel 16x12 --arith i8f24 -o a.png")
         .arg(scene("figure-22"))
@@ -154,7 +154,7 @@ fn it_tells_what_the_overlay_does() {
 }
 
 #[test]
-fn what_is_wrong_is_told_and_nothing_is_written() {
+fn mistakes_are_reported_and_nothing_is_written() {
     let folder = TempDir::new().unwrap();
     let fails = |line, code| panel(folder.path(), line).assert().code(code).stdout_eq("");
     fails("missing.scene", 1).stderr_eq(str![[r#"

@@ -1,4 +1,4 @@
-//! `octray plan`: its plans keep what they promise, are as small as they can be, and cost what they say.
+//! `octray plan`: plans achieve the accuracy that they promise, are as small as possible, and cost what they predict.
 #![cfg(feature = "lab")]
 
 use octray_lab::measure::board::{BOARDS, Board};
@@ -13,7 +13,7 @@ use octray_prepare::plan::Plan;
 use octray_prepare::{Format, PixelsPerRay};
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_scenes::model::Scene;
 use snapbox::cmd::cargo_bin;
 use std::fs;
@@ -38,7 +38,7 @@ fn scenes() -> Vec<(String, Scene)> {
         let path = root().join("scenes").join(&name).with_extension("scene");
         (name, octray_scenes::read(&path).unwrap())
     });
-    let generated = Kind::ALL.into_iter().map(|kind| {
+    let generated = SceneKind::ALL.into_iter().map(|kind| {
         let scene = generate(Spec { kind, objects: 30 }, 1);
         (kind.name().to_owned(), scene)
     });
@@ -86,12 +86,12 @@ fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
             Difference::between(&exact, &picture).unwrap().psnr()
         };
         assert!(psnr(&plan) >= MIN_PSNR, "{name}");
-        // The depth loses nothing, and one less would.
+        // The depth loses nothing; a smaller depth would.
         let depth =
             |depth| render(&scene, &with(Format::F64, PixelsPerRay::One, depth)).picture == exact;
         assert!(depth(plan.max_depth), "{name}");
         assert!(plan.max_depth == 0 || !depth(plan.max_depth - 1), "{name}");
-        // Two bits less are too few, four pixels to a ray too coarse.
+        // Two bits less are too few, and four pixels per ray too coarse.
         let formats: Vec<_> = fixed_point().collect();
         let at = formats.iter().position(|format| *format == plan.format);
         if let Some(narrower) = at.and_then(|at| formats.get(at.checked_sub(1)?)) {
@@ -109,7 +109,7 @@ fn plans_of_ten_scenes_are_accurate_enough_and_no_larger() {
                 "{name}"
             );
         }
-        // No capacity is larger than what is used: the arena, and the rays that wait.
+        // No capacity exceeds what is used: the arena, and the stack of rays.
         let probe = render(&scene, &plan);
         assert_eq!(plan.rays, probe.waiting, "{name}");
         assert_eq!((probe.saturations, probe.too_fine), (0, None), "{name}");
@@ -132,8 +132,8 @@ fn the_model_predicts_what_was_measured() {
         let weights = model.of(sample.board.target, sample.family).unwrap();
         let errors = sample.errors(weights);
         let (scene, board, family) = (&sample.line.scene, sample.board, sample.family.name());
-        let told = format!("{scene} on {board} in {family}: {errors:.3?}");
-        assert!(errors.iter().all(|error| error.abs() < 0.15), "{told}");
+        let message = format!("{scene} on {board} in {family}: {errors:.3?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.15), "{message}");
         checked += 1;
     }
     // Every target, in fixed point and in f32.
@@ -151,10 +151,10 @@ fn predictions_hold_on_emulated_boards() {
     let folder = tempfile::tempdir().unwrap();
     let soup = folder.path().join("soup.scene");
     let mut file = fs::File::create(&soup).unwrap();
-    let (kind, objects) = (Kind::Soup, 30);
+    let (kind, objects) = (SceneKind::Soup, 30);
     octray_scenes::write(&generate(Spec { kind, objects }, 1), &mut file).unwrap();
     let soup = soup.display();
-    // Polygons of many edges, another one than the weights were fitted to.
+    // Polygons with many edges, a different one than the weights were fitted to.
     let combed = folder.path().join("comb.scene");
     let mut file = fs::File::create(&combed).unwrap();
     octray_scenes::write(&comb(30).unwrap(), &mut file).unwrap();
@@ -165,12 +165,12 @@ fn predictions_hold_on_emulated_boards() {
         &format!("{combed} --target m3 --arith fixed --min-psnr 20"),
     ] {
         let output = octray(&format!("plan {line} --size 40x30 --measure --json"));
-        let told = String::from_utf8_lossy(&output.stderr);
-        if told.contains(" is missing: ") {
-            eprintln!("skipped: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        if stderr.contains(" is missing: ") {
+            eprintln!("skipped: {stderr}");
             continue;
         }
-        assert!(output.status.success(), "{line}: {told}");
+        assert!(output.status.success(), "{line}: {stderr}");
         let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         for error in report["trial"]["errors"].as_array().unwrap() {
             assert!(
@@ -201,14 +201,14 @@ fn what_is_emitted_is_baked() {
     };
     assert_eq!(String::from_utf8(baked.stdout).unwrap(), expected.source);
     assert_eq!(expected.rays, plan.rays);
-    // Another scene's plan, a file that is no plan, and a plan beside what it says itself.
+    // A plan of another scene, a file that is not a plan, and a plan together with options that it contains.
     let other = octray(&format!(
         "bake scenes/glass.scene --plan {}",
         path.display()
     ));
-    let told = String::from_utf8_lossy(&other.stderr);
+    let stderr = String::from_utf8_lossy(&other.stderr);
     assert_eq!(other.status.code(), Some(1));
-    assert!(told.contains("made for another scene"), "{told}");
+    assert!(stderr.contains("made for another scene"), "{stderr}");
     assert!(other.stdout.is_empty());
     let wrong = octray(&format!("bake {scene} --plan {scene}"));
     assert_eq!(wrong.status.code(), Some(1));
@@ -220,7 +220,7 @@ fn what_is_emitted_is_baked() {
 }
 
 #[test]
-fn what_does_not_fit_is_told_with_what_would() {
+fn what_does_not_fit_is_reported_with_what_would() {
     let scene = "scenes/isometric.scene --size 64x48";
     for (bounds, remedies, failures) in [
         ("--ram 900", 2, ["error: RAM: the nearest plan takes "; 2]),
@@ -228,16 +228,16 @@ fn what_does_not_fit_is_told_with_what_would() {
         ("--flash 9000 --ram 900", 2, ["flash: ", "RAM: "]),
     ] {
         let output = octray(&format!("plan {scene} {bounds}"));
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{bounds}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{bounds}: {stderr}");
         for failure in failures {
-            assert!(told.contains(failure), "{bounds}: {told}");
+            assert!(stderr.contains(failure), "{bounds}: {stderr}");
         }
-        let (_, fits) = told.trim_end().split_once("it fits with ").unwrap();
+        let (_, fits) = stderr.trim_end().split_once("it fits with ").unwrap();
         let fits: Vec<_> = fits.split(", or with ").collect();
-        assert_eq!(fits.len(), remedies, "{told}");
+        assert_eq!(fits.len(), remedies, "{stderr}");
         for remedy in fits {
-            // Each of them in place of what was asked for.
+            // Each remedy replaces the corresponding option.
             let mut words: Vec<_> = format!("{scene} {bounds}")
                 .split(' ')
                 .map(String::from)
@@ -249,8 +249,8 @@ fn what_does_not_fit_is_told_with_what_would() {
                 }
             }
             let output = octray(&format!("plan {}", words.join(" ")));
-            let told = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{bounds}: {remedy}: {told}");
+            let stderr = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{bounds}: {remedy}: {stderr}");
         }
     }
     for line in [
@@ -264,7 +264,7 @@ fn what_does_not_fit_is_told_with_what_would() {
 }
 
 #[test]
-fn what_no_format_can_do_is_told_with_the_reason() {
+fn what_no_format_achieves_is_reported_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -276,7 +276,7 @@ fn what_no_format_can_do_is_told_with_the_reason() {
     let heavy = format!("{head} 1 f 0 0 0 1 1 1 0 0 0 0 0.5 1.5 1.5 {ball}");
     let bright = format!("{head} 1e12 f 0 0 0 1 1 1 0 0 0 0 0 0 {ball}");
     for (options, expected) in [
-        // No format has quite its picture.
+        // No format reproduces its picture exactly.
         (
             "scenes/isometric.scene --size 64x48 --min-psnr 200",
             "error: PSNR: nothing reaches 200 dB; ",
@@ -291,8 +291,8 @@ fn what_no_format_can_do_is_told_with_the_reason() {
         ),
     ] {
         let output = octray(&format!("plan {options} --arith fixed"));
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{options}: {told}");
-        assert!(told.contains(expected), "{options}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{options}: {stderr}");
+        assert!(stderr.contains(expected), "{options}: {stderr}");
     }
 }

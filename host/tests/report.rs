@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The page of two scenes of one name, in a folder of its own.
+/// The page of two scenes of the same name, in a folder of its own.
 fn report(folder: &Path, name: &str) -> String {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     fs::create_dir_all(folder.join("deep")).unwrap();
@@ -20,8 +20,8 @@ fn report(folder: &Path, name: &str) -> String {
         .args(["--size", "32x24", "--chart-size", "16x12", "-o", name])
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{told}");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{stderr}");
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
@@ -31,7 +31,7 @@ fn octray(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// Whatever stands between two texts.
+/// Returns the texts between two texts.
 fn between<'a>(page: &'a str, before: &'a str, after: &'a str) -> impl Iterator<Item = &'a str> {
     let parts = page.split(before).skip(1);
     parts.filter_map(move |part| Some(part.split_once(after)?.0))
@@ -104,11 +104,11 @@ fn sh(folder: &Path, commands: &str) {
         .args(["-e", "-c", commands])
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&ran.stderr);
-    assert!(ran.status.success(), "{told}\n{commands}");
+    let stderr = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{stderr}\n{commands}");
 }
 
-/// What a shell makes of them is shown in the page to the byte.
+/// Runs the page's commands in a shell; the page shows the pictures that they write, byte for byte.
 fn the_commands_give_the_pictures(page: &str, folder: &Path) {
     sh(folder, commands(page));
     for name in ["i16f16", "f32", "i16f16-difference", "f32-difference"] {
@@ -118,7 +118,7 @@ fn the_commands_give_the_pictures(page: &str, folder: &Path) {
     }
 }
 
-/// The chart of the first scene is shown as its command draws it.
+/// Runs the first scene's chart command; the page shows the chart that it draws.
 fn the_command_gives_the_chart(page: &str, folder: &Path) {
     let section = between(page, "id=\"costs\"", "</section>").next().unwrap();
     let command = (between(section, "<code>", "</code>"))
@@ -130,7 +130,7 @@ fn the_command_gives_the_chart(page: &str, folder: &Path) {
 }
 
 #[test]
-fn a_tool_that_is_missing_is_told_in_the_page() {
+fn the_page_reports_a_missing_tool() {
     let folder = tempfile::tempdir().unwrap();
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let output = octray(folder.path(), &["report"])

@@ -47,32 +47,32 @@ fn writes_tables_data_and_maps_that_do_not_depend_on_the_threads() {
     assert_eq!(lines.lines().count(), 1 + cells.len() + power.len());
     assert_eq!(cells[0]["state"], "holds");
     let map = picture::read(&folder.join("maps/sphere.png")).unwrap();
-    // Light and dark cells: something holds, and something breaks.
+    // Light and dark cells: some cases hold, and some break.
     for level in [[244, 246, 243], [8, 69, 148]] {
         assert!(map.levels().contains(&level), "{level:?}");
     }
 }
 
 #[test]
-fn tells_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
+fn prints_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
     let folder = TempDir::new().unwrap();
     let line = "stability power polygon --limits f32,i16f16 -o maps --json a.json";
     let output = octray(folder.path(), line).output().unwrap();
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    // A head, its rule, and the forms of both methods.
+    // A heading, its rule, and the forms of both methods.
     assert_eq!(lines.len(), 2 + 2 + 2, "{text}");
     assert!(lines[0].contains("f32 holds to") && lines[0].contains("i16f16 holds to"));
     assert!(lines[4].contains("polygon") && lines[5].contains("thesis"));
-    // The last value of polygons is infinite, for which JSON has no number.
+    // The last value of polygons is infinite, which JSON cannot represent.
     let json: Value =
         serde_json::from_slice(&fs::read(folder.path().join("a.json")).unwrap()).unwrap();
     let cells = json[1]["cells"].as_array().unwrap();
     assert_eq!(cells.last().unwrap()["value"], "inf");
     assert!(cells.iter().all(|cell| !cell["value"].is_null()));
     let queries = picture::read(&folder.path().join("maps/polygon-queries.png")).unwrap();
-    // Points that are falsely in, and falsely out.
+    // Points that are wrongly inside, and wrongly outside.
     for level in [[230, 85, 13], [8, 69, 148]] {
         assert!(queries.levels().contains(&level), "{level:?}");
     }
@@ -96,7 +96,7 @@ For more information, try '--help'.
 }
 
 #[test]
-fn a_folder_that_cannot_be_is_told_before_any_work() {
+fn a_folder_that_cannot_be_is_reported_before_any_work() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("maps"), "").unwrap();
     octray(folder.path(), "stability power -o maps")

@@ -14,7 +14,7 @@ fn tables(folder: &Path, line: &str) -> Command {
 }
 
 #[test]
-fn tables_are_the_same_every_time() {
+fn tables_are_the_same_in_every_run() {
     let folder = tempfile::tempdir().unwrap();
     tables(folder.path(), "I VI VIII --size 64x64")
         .assert()
@@ -24,7 +24,7 @@ fn tables_are_the_same_every_time() {
 }
 
 #[test]
-fn a_table_that_there_is_not_is_refused_with_the_names() {
+fn an_unknown_table_is_refused_with_a_list_of_names() {
     let folder = tempfile::tempdir().unwrap();
     tables(folder.path(), "X")
         .assert()
@@ -40,7 +40,7 @@ For more information, try '--help'.
 }
 
 #[test]
-fn a_file_with_more_of_the_thesis_is_compared_as_it_is() {
+fn a_file_with_more_numbers_of_the_thesis_is_compared() {
     let folder = tempfile::tempdir().unwrap();
     let lines = "table,scene,variant,quantity,machine,value,unit,page\n\
                  V,figure-21,5,time,Balance 8000,30,minutes,75\n\
@@ -78,7 +78,7 @@ fn a_file_with_more_of_the_thesis_is_compared_as_it_is() {
     );
 }
 
-/// Figures of the thesis as somebody might fill them in; the numbers are made up.
+/// Numbers of the thesis as a user might fill them in; they are made up.
 const MORE: &str = "\
 table,scene,variant,quantity,machine,value,unit,page
 II,figure-19,2,time,Balance 8000,61.5,minutes,70
@@ -90,7 +90,7 @@ VII,,4,time,,0.27,ratio,
 ";
 
 #[test]
-fn what_is_known_of_the_thesis_stands_beside_ours() {
+fn known_numbers_of_the_thesis_stand_beside_ours() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("more.csv"), MORE).unwrap();
     tables(folder.path(), "II VII --size 64x64 --thesis more.csv")
@@ -99,7 +99,7 @@ fn what_is_known_of_the_thesis_stands_beside_ours() {
         .stdout_eq(file!["tables/II-VII-thesis.txt"].raw());
 }
 
-/// What stands first between two texts.
+/// Returns the first text between two texts.
 fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
     let rest = text.split_once(before).unwrap().1;
     rest.split_once(after).unwrap().0
@@ -121,7 +121,7 @@ fn charts_are_drawn_with_their_tables() {
         for text in [title, "static", "dynamic"] {
             assert!(svg.contains(text), "{name}: {text}");
         }
-        // A panel for each scene, and in it a curve for each policy at least.
+        // A panel per scene, and in each a curve per policy at least.
         for scene in 19..=23 {
             assert!(svg.contains(&format!("figure-{scene}")), "{name}: {scene}");
         }
@@ -143,7 +143,7 @@ For more information, try '--help'.
 }
 
 #[test]
-fn mistakes_in_files_are_told_and_nothing_is_written() {
+fn mistakes_in_files_are_reported_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = "table,scene,variant,quantity,machine,value,unit,page\nI,flat,plain,x,,many,,\n";
     fs::write(folder.path().join("wrong.csv"), wrong).unwrap();

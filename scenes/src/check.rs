@@ -1,4 +1,4 @@
-//! The promises of [`crate::model`], checked: what makes a scene one that can be rendered.
+//! Checks of the invariants of [`crate::model`]: what makes a scene renderable.
 
 use crate::model::{Camera, Light, Object, Point, Scene, Shape, Surface};
 use std::fmt;
@@ -10,7 +10,7 @@ pub(crate) mod plane;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// NaN or infinite, as written or once colour and coefficient are multiplied.
+    /// NaN or infinite, as written or after colour and coefficient are multiplied.
     #[error("a number that is not finite")]
     NotFinite,
     /// A sphere of radius 0.
@@ -94,7 +94,7 @@ pub enum Fault {
     SurfaceIndex,
 }
 
-/// What a [`Fault`] was found in; the numbers are indices into the scene's lists.
+/// The place of a [`Fault`]; the numbers are indices into the scene's lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The camera.
@@ -124,20 +124,20 @@ impl fmt::Display for Place {
     }
 }
 
-/// The first broken promise of a scene.
+/// The first violated invariant of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{place}: {fault}")]
 pub struct Broken {
-    /// Where.
+    /// Where it was found.
     pub place: Place,
-    /// What.
+    /// What is wrong.
     pub fault: Fault,
 }
 
-/// Checks a scene that was not parsed against the promises of [`crate::model`].
+/// Checks a scene that was not parsed against the invariants of [`crate::model`].
 ///
 /// # Errors
-/// The first broken promise, in the order camera, resolution, background, lights, surfaces, objects.
+/// The first violated invariant, in the order camera, resolution, background, lights, surfaces, objects.
 pub fn scene(scene: &Scene) -> Result<(), Broken> {
     let at = |place| move |fault| Broken { place, fault };
     camera(&scene.camera).map_err(at(Place::Camera))?;

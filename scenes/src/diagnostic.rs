@@ -1,21 +1,21 @@
-//! Mistakes in a scene file: a kind and a place each, drawn only when somebody wants to read them.
+//! Mistakes in a scene file. Each has a kind and a place, and is drawn as text only on request.
 
 mod draw;
 mod words;
 
 use crate::check::Fault;
-use crate::parse::{Keyword, Span};
+use crate::word::{Keyword, Span};
 
-/// As many mistakes are kept; beyond them only the fact that there are more.
+/// The number of mistakes that are kept; of more, only their existence is recorded.
 pub const MOST: usize = 20;
 
 /// What is wrong.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Kind {
-    /// No token at all in the file.
+pub enum MistakeKind {
+    /// The file has no token at all.
     Empty,
-    /// A control character: this is no text file. Nothing after it is read.
+    /// A control character: this is not a text file. Reading stops here.
     Binary,
     /// A word where a keyword must be.
     UnknownKeyword,
@@ -47,7 +47,7 @@ pub enum Kind {
     View,
     /// An object before the first surface.
     NoSurface,
-    /// What a scene has once, a second time.
+    /// A second occurrence of something that a scene has once.
     Duplicate {
         /// The keyword.
         keyword: Keyword,
@@ -71,12 +71,12 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// What is wrong.
-    pub kind: Kind,
+    pub kind: MistakeKind,
     /// Where; a part of one line if possible.
     pub span: Span,
 }
 
-/// The mistakes of one source, in its order. Never empty where it is an error.
+/// The mistakes of one source, in its order. As an error it is never empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostics {
     /// Up to [`MOST`] of them.
@@ -86,16 +86,15 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Draws every mistake: what it is, `path:line:column` (from 1, columns in characters), the
-    /// line with carets under the span, what was found and what was expected. Of a long line only
-    /// the neighbourhood of the span is shown; control characters are escaped. `source` must be
-    /// the text that was parsed; `path` is only shown.
+    /// Draws every mistake: what it is, `path:line:column` (from 1, columns in characters), the line with carets under
+    /// the span, what was found and what was expected. A long line is cut to the neighbourhood of the span; control
+    /// characters are escaped. `source` must be the text that was parsed; `path` is only displayed.
     pub fn draw(&self, path: &str, source: &str) -> String {
         draw::draw(self, path, source)
     }
 }
 
-/// Where the parser puts the mistakes it finds.
+/// Collects the mistakes that the parser finds.
 #[derive(Debug, Default)]
 pub(crate) struct Sink {
     list: Vec<Diagnostic>,
@@ -104,8 +103,8 @@ pub(crate) struct Sink {
 }
 
 impl Sink {
-    pub(crate) fn push(&mut self, kind: Kind, span: Span) {
-        self.hopeless |= matches!(kind, Kind::Binary | Kind::Empty);
+    pub(crate) fn push(&mut self, kind: MistakeKind, span: Span) {
+        self.hopeless |= matches!(kind, MistakeKind::Binary | MistakeKind::Empty);
         if self.list.len() < MOST {
             self.list.push(Diagnostic { kind, span });
         } else {
@@ -113,17 +112,17 @@ impl Sink {
         }
     }
 
-    /// Whether there was no mistake so far.
+    /// Whether no mistake was found so far.
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Whether there are too many mistakes, or one that makes reading on pointless.
+    /// Whether there are too many mistakes, or one after which reading on is pointless.
     pub(crate) fn ends_reading(&self) -> bool {
         self.more || self.hopeless
     }
 
-    /// `value` if there was no mistake.
+    /// Returns `value` if no mistake was found.
     pub(crate) fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
         let Self { mut list, more, .. } = self;
         if list.is_empty() {

@@ -1,15 +1,15 @@
-//! Scene files of octray as text: read, check, write, generate.
+//! Scene files of octray as text: reading, checking, writing, generating.
 //!
 //! The modules, in the order of the data:
 //!
 //! | module | does |
 //! | --- | --- |
 //! | [`mod@parse`] | reads a scene file of either dialect: text to [`model::Scene`] |
-//! | [`diagnostic`] | says what is wrong with a file, where, and what was expected |
-//! | [`check`] | the promises a scene keeps, for the parser and for scenes made otherwise |
+//! | [`diagnostic`] | describes what is wrong with a file, where, and what was expected |
+//! | [`check`] | checks the invariants of a scene, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
-//! | [`mod@generate`] | scenes of any size from a seed |
-//! | [`mod@write`] | a [`model::Scene`] to text that parses to the same |
+//! | [`mod@generate`] | generates scenes of any size from a seed |
+//! | [`mod@write`] | writes a [`model::Scene`] as text that parses to the same scene |
 //!
 //! ```
 //! let scene = octray_scenes::parse("v 0 0 500  f 1 0.5 0.2 0.8 0.2 10 0 1  s 0 0 -50 40")?;
@@ -26,6 +26,7 @@ pub mod diagnostic;
 pub mod generate;
 pub mod model;
 pub mod parse;
+mod word;
 pub mod write;
 
 pub use generate::generate;

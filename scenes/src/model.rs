@@ -1,8 +1,8 @@
-//! The parsed scene: what a scene file says, in `f64` and in scene units, nothing derived.
+//! The parsed scene: the contents of a scene file, in `f64` and in scene units, nothing derived.
 //!
-//! Everything here has been checked by the parser: every number is finite, every shape has an
-//! extent, every surface index is in range. Code that builds a [`Scene`] by other means must keep
-//! the same promises, or call [`crate::check::scene`] on what it built.
+//! The parser has checked these invariants: every number is finite, every shape has an extent, every surface index is
+//! in range. Code that builds a [`Scene`] by other means must satisfy them too, or call [`crate::check::scene`] on the
+//! result.
 
 /// A point or a direction in scene units.
 pub type Point = [f64; 3];
@@ -14,19 +14,19 @@ pub type Colour = [f64; 3];
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
-    /// Where the picture is seen from.
+    /// The camera.
     pub camera: Camera,
     /// Columns of the picture as the file has it, 1 to 65535.
     pub width: u32,
     /// Rows of the picture as the file has it, 1 to 65535.
     pub height: u32,
-    /// What a ray that hits nothing brings.
+    /// The colour of a ray that hits nothing.
     pub background: Colour,
     /// Point lights, in file order.
     pub lights: Vec<Light>,
     /// Surface properties, in file order.
     pub surfaces: Vec<Surface>,
-    /// Objects, in file order; their index is their identity everywhere in octray.
+    /// Objects, in file order; an object's index is its identity everywhere in octray.
     pub objects: Vec<Object>,
     /// Vertices of all polygons and patches; shapes hold ranges of it.
     pub vertices: Vec<Point>,
@@ -42,7 +42,7 @@ pub enum Camera {
     Thesis {
         /// The eye; its z is never zero.
         viewpoint: Point,
-        /// How rays leave.
+        /// How rays leave the eye.
         projection: Projection,
     },
     /// The camera of NFF.
@@ -51,11 +51,11 @@ pub enum Camera {
         from: Point,
         /// The point in the centre of the picture.
         at: Point,
-        /// A direction that is up in the picture; never parallel to the view.
+        /// The direction that is up in the picture; never parallel to the view.
         up: Point,
         /// Degrees between the centres of the first and the last row, inside (0, 180).
         angle: f64,
-        /// How rays leave.
+        /// How rays leave the camera.
         projection: Projection,
     },
 }
@@ -74,18 +74,18 @@ pub enum Projection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Light {
-    /// Where it is.
+    /// Its position.
     pub position: Point,
-    /// Its brightness, channel by channel; never negative. An NFF light without a colour holds
-    /// 1/√(number of lights) in each channel.
+    /// Its brightness per channel; never negative. An NFF light without a colour holds 1/√(number of lights) in each
+    /// channel.
     pub colour: Colour,
 }
 
-/// The properties of a surface, in the thesis's terms whatever the dialect. The default is black.
+/// The properties of a surface, in the thesis's terms for either dialect. The default is black.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surface {
-    /// Light the surface shows without any light source.
+    /// Light that the surface emits without any light source.
     pub ambient: Colour,
     /// Diffuse coefficients.
     pub diffuse: Colour,

@@ -1,9 +1,9 @@
-//! Reading scene files: both dialects of `docs/MODEL.md` from one stream of tokens.
+//! Reads scene files: both dialects of `docs/MODEL.md` from one stream of tokens.
 //!
-//! `token` cuts the source at white space, `entity` gathers a keyword and the numbers up to the
-//! next one, `build` turns each entity into its part of the scene and has it checked, `header`
-//! puts together the camera, which is scattered over several keywords. Nothing but the scene grows with the
-//! file, and every byte is looked at once; places are found again only for mistakes.
+//! `token` splits the source at white space. `entity` collects a keyword and the numbers up to the next keyword.
+//! `build` turns each entity into its part of the scene and has it checked. `header` assembles the camera, whose parts
+//! are spread over several keywords. Only the scene grows with the file, and every byte is read once; places are
+//! searched again only for mistakes.
 
 mod build;
 mod entity;
@@ -16,7 +16,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-pub use token::{Keyword, Span};
+pub use crate::word::{Keyword, Span};
 
 /// Reads a scene from its text.
 ///
@@ -40,8 +40,8 @@ pub fn parse(source: &str) -> Result<Scene, Diagnostics> {
 /// Reads a scene from a file.
 ///
 /// # Errors
-/// If there is no such file, if it is no regular file, cannot be read or is not UTF-8, or if there
-/// are mistakes in it. Displayed, the error holds all of them, drawn with their lines.
+/// If there is no such file, it is not a regular file, cannot be read or is not UTF-8, or it contains mistakes.
+/// Displayed, the error holds all mistakes, drawn with their lines.
 pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
     let path = path.as_ref();
     let unreadable = |error: io::Error| match error.kind() {
@@ -66,26 +66,26 @@ pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
     })
 }
 
-/// Why a file gave no scene.
+/// Why reading a scene failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// No such file.
     #[error("error: {}: no such file", .path.display())]
     NotFound {
-        /// The path that was asked for.
+        /// The requested path.
         path: PathBuf,
     },
     /// A folder, a pipe or a device.
     #[error("error: {}: not a file", .path.display())]
     NotAFile {
-        /// The path that was asked for.
+        /// The requested path.
         path: PathBuf,
     },
-    /// The system refuses it.
+    /// The system refused to read it.
     #[error("error: {}: cannot be read: {error}", .path.display())]
     Unreadable {
-        /// The path that was asked for.
+        /// The requested path.
         path: PathBuf,
         /// The system's reason.
         #[source]
@@ -94,17 +94,17 @@ pub enum ReadError {
     /// Bytes that are not UTF-8.
     #[error("error: {}: not a text file: byte {offset} is not UTF-8", .path.display())]
     NotText {
-        /// The path that was asked for.
+        /// The requested path.
         path: PathBuf,
         /// The first wrong byte, counted from 0.
         offset: usize,
     },
-    /// A text that is no scene.
+    /// The text has mistakes.
     #[error("{drawn}")]
     Mistakes {
         /// The mistakes.
         diagnostics: Diagnostics,
-        /// The mistakes with their lines, for people.
+        /// The mistakes drawn with their lines.
         drawn: String,
     },
 }
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
     use token::tests::tokens_read;
 
-    /// Linear time: each token is read once, and again only for the few mistakes that are kept.
+    /// Linear time: each token is read once, and again only for the few kept mistakes.
     #[test]
     fn tokens_are_read_once() {
         let header = "v 0 0 1 f 1 1 1 1 0 0 0 0 ";

@@ -1,19 +1,18 @@
-//! Writing scene files: one entity per line, in the thesis's dialect and our additions to it, with
-//! NFF's patch where one is needed.
+//! Writes scene files: one entity per line, in the thesis's dialect and our additions to it, with NFF's patch where
+//! needed.
 
 use crate::model::{Camera, Colour, Light, Object, Point, Projection, Scene, Shape, Surface};
 use std::fmt;
 use std::io::{self, Write};
 
-/// Writes `scene` so that [`parse`](crate::parse()) gives it back, every number bit for bit.
+/// Writes `scene` so that [`parse`](crate::parse()) returns the same scene, every number bit for bit.
 ///
-/// That holds for scenes as they are parsed or generated, whose objects go through the surfaces
-/// and through the vertices and normals in order. For others the picture is the same, but surfaces
-/// may come twice and vertices in another order. The scene must pass
+/// This holds for scenes that were parsed or generated: their objects use the surfaces, vertices and normals in order.
+/// For other scenes the picture is the same, but surfaces may be repeated and vertices reordered. The scene must pass
 /// [`check::scene`](crate::check::scene).
 ///
 /// # Errors
-/// Those of `out`. Hand in a buffered one: there are many small writes.
+/// Those of `out`. Pass a buffered writer: there are many small writes.
 ///
 /// # Panics
 /// If an object's surface, vertices or normals are out of range.
@@ -27,7 +26,7 @@ pub fn write(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
     for object in &scene.objects {
         let index = object.surface as usize;
         if current != Some(index) {
-            // Surfaces nobody uses keep their places.
+            // Unused surfaces keep their places.
             for surface in scene.surfaces.get(unwritten..index).unwrap_or_default() {
                 write_surface(surface, out)?;
             }
@@ -153,7 +152,7 @@ fn points(list: &[Point], first: u32, count: u32) -> &[Point] {
     &list[first as usize..first as usize + count as usize]
 }
 
-/// The fewest digits that give the same `f64` again, with an exponent where that is shorter.
+/// Displays the fewest digits that parse to the same `f64`, with an exponent if that is shorter.
 struct Number(f64);
 
 impl fmt::Display for Number {
@@ -177,7 +176,7 @@ impl fmt::Display for Triple<'_> {
     }
 }
 
-/// One number for a white light, else three.
+/// Displays one number for a white light, three otherwise.
 struct Brightness<'c>(&'c Colour);
 
 impl fmt::Display for Brightness<'_> {
@@ -195,7 +194,7 @@ impl fmt::Display for Brightness<'_> {
 mod tests {
     use super::*;
 
-    /// Every construct of both dialects survives, also those that are written another way.
+    /// Every construct of both dialects survives, including those that are written differently.
     #[test]
     fn every_entity_comes_back() {
         let source = "

@@ -1,11 +1,10 @@
-//! The scenes of this folder: every one is read without a mistake, and the five of the thesis hold
-//! what its tables say.
+//! Every scene of this folder parses without a mistake, and the thesis's five have the contents that its tables state.
 
 use octray_scenes::model::{Camera, Scene, Shape};
 use octray_scenes::read;
 use std::path::{Path, PathBuf};
 
-/// What is counted in a scene.
+/// Counts of a scene's contents.
 #[derive(Debug, PartialEq)]
 struct Contents {
     spheres: usize,
@@ -41,7 +40,7 @@ fn scene(path: &Path) -> Scene {
 }
 
 #[test]
-fn every_scene_is_read_and_shows_something() {
+fn every_scene_parses_and_is_not_empty() {
     let paths: Vec<PathBuf> = std::fs::read_dir(folder())
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -56,7 +55,7 @@ fn every_scene_is_read_and_shows_something() {
 }
 
 #[test]
-fn the_figures_hold_what_the_thesis_says() {
+fn the_figures_have_the_contents_that_the_thesis_states() {
     for (figure, expected) in FIGURES {
         let scene = scene(&folder().join(format!("figure-{figure}.scene")));
         let count = |kind: fn(&Shape) -> bool| {
@@ -76,7 +75,7 @@ fn the_figures_hold_what_the_thesis_says() {
 }
 
 #[test]
-fn the_figures_are_seen_as_the_thesis_sees() {
+fn the_figures_have_the_camera_of_the_thesis() {
     for (figure, _) in FIGURES {
         let scene = scene(&folder().join(format!("figure-{figure}.scene")));
         assert_eq!((scene.width, scene.height), (512, 512), "figure {figure}");

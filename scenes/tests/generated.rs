@@ -1,13 +1,13 @@
-//! Generated scenes have the size they promise, keep the model's promises and survive a file.
+//! Generated scenes have the documented size, satisfy the model's invariants and survive a file.
 
-use octray_scenes::generate::{Kind, Spec};
+use octray_scenes::generate::{SceneKind, Spec};
 use octray_scenes::model::{Scene, Shape};
 use octray_scenes::{check, generate, parse, write};
 
 const SIZES: [usize; 10] = [0, 1, 2, 3, 10, 11, 92, 100, 1000, 20_000];
 
-fn scenes() -> impl Iterator<Item = (Kind, usize, Scene)> {
-    Kind::ALL
+fn scenes() -> impl Iterator<Item = (SceneKind, usize, Scene)> {
+    SceneKind::ALL
         .into_iter()
         .flat_map(|kind| SIZES.map(|objects| (kind, objects, generate(Spec { kind, objects }, 7))))
 }
@@ -20,27 +20,30 @@ fn text(scene: &Scene) -> String {
 
 #[test]
 fn sizes_are_as_documented() {
-    for (kind, wished, scene) in scenes() {
+    for (kind, requested, scene) in scenes() {
         let size = scene.objects.len();
         let expected = match kind {
-            Kind::Flake | Kind::Lattice | Kind::Soup => wished.max(1),
-            Kind::Tree => 1 + 2 * (wished.saturating_sub(1) / 2),
-            Kind::Terrain => {
-                let half = (wished.saturating_sub(1) / 2).max(1);
+            SceneKind::Flake | SceneKind::Lattice | SceneKind::Soup => requested.max(1),
+            SceneKind::Tree => 1 + 2 * (requested.saturating_sub(1) / 2),
+            SceneKind::Terrain => {
+                let half = (requested.saturating_sub(1) / 2).max(1);
                 1 + 2 * half.isqrt() * (half / half.isqrt())
             }
         };
-        assert_eq!(size, expected, "{} of {wished}", kind.name());
-        if wished >= 3 {
-            assert!(size <= wished && (wished - size) as f64 <= 2.0 + 2.0 * (wished as f64).sqrt());
+        assert_eq!(size, expected, "{} of {requested}", kind.name());
+        if requested >= 3 {
+            assert!(
+                size <= requested
+                    && (requested - size) as f64 <= 2.0 + 2.0 * (requested as f64).sqrt()
+            );
         }
     }
 }
 
 #[test]
-fn all_promises_are_kept_and_every_scene_comes_back_from_a_file() {
-    for (kind, wished, scene) in scenes() {
-        let name = format!("{} of {wished}", kind.name());
+fn all_invariants_hold_and_every_scene_survives_a_file() {
+    for (kind, requested, scene) in scenes() {
+        let name = format!("{} of {requested}", kind.name());
         assert_eq!(check::scene(&scene), Ok(()), "{name}");
         let again = parse(&text(&scene)).unwrap_or_else(|mistakes| {
             panic!("{name}: {}", mistakes.draw(&name, &text(&scene)));
@@ -51,18 +54,18 @@ fn all_promises_are_kept_and_every_scene_comes_back_from_a_file() {
 
 #[test]
 fn seeds_matter_and_nothing_else_does() {
-    for kind in Kind::ALL {
+    for kind in SceneKind::ALL {
         let spec = Spec { kind, objects: 100 };
         assert_eq!(generate(spec, 1), generate(spec, 1));
         assert_ne!(generate(spec, 1), generate(spec, 2), "{}", kind.name());
     }
 }
 
-/// The digits of these scenes are the same on every machine; if they change, so does the picture
-/// that somebody made with the same seed. FNV-1a, 64 bits, over the file.
+/// These scenes have the same digits on every machine. If they change, so do pictures that users made with the same
+/// seed. FNV-1a, 64 bits, over the file.
 #[test]
 fn the_files_are_the_same_everywhere() {
-    let hashes = Kind::ALL.map(|kind| {
+    let hashes = SceneKind::ALL.map(|kind| {
         let scene = generate(
             Spec {
                 kind,
@@ -90,10 +93,10 @@ soup fd7fa2c976ecf786
 }
 
 #[test]
-fn a_soup_has_all_shapes_and_concave_polygons() {
+fn a_soup_contains_all_shapes_and_concave_polygons() {
     let scene = generate(
         Spec {
-            kind: Kind::Soup,
+            kind: SceneKind::Soup,
             objects: 71,
         },
         3,

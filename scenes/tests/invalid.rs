@@ -1,5 +1,5 @@
-//! Every mistake in `invalid/` is reported as the file beside it says. After a change of the words
-//! run with `SNAPSHOTS=overwrite` and read the difference.
+//! Every mistake in `invalid/` is reported as recorded in the file beside it. After a change of the texts, run with
+//! `SNAPSHOTS=overwrite` and read the difference.
 
 use octray_scenes::{ReadError, read};
 use snapbox::{Data, assert_data_eq};
@@ -29,7 +29,7 @@ fn mistakes_are_drawn_as_recorded() {
 }
 
 #[test]
-fn what_is_no_text_file_is_refused() {
+fn a_binary_file_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("picture.scene");
 
@@ -59,7 +59,7 @@ fn a_file_without_permission_is_unreadable() {
     let nobody = std::fs::Permissions::from_mode(0o000);
     std::fs::set_permissions(file.path(), nobody).unwrap();
     if std::fs::File::open(file.path()).is_ok() {
-        return; // Nothing is closed to root.
+        return; // Root may read everything.
     }
     let error = read(file.path()).unwrap_err();
     assert!(matches!(error, ReadError::Unreadable { .. }), "{error}");

@@ -1,4 +1,4 @@
-//! What entities mean: MODEL's table of both dialects, with its defaults.
+//! The meaning of entities: MODEL's table of both dialects, with its defaults.
 
 use octray_scenes::model::{Camera, Projection, Scene, Shape};
 use octray_scenes::parse;
@@ -8,7 +8,7 @@ fn scene(source: &str) -> Scene {
 }
 
 #[test]
-fn the_least_scene_has_the_defaults() {
+fn the_smallest_scene_has_the_defaults() {
     let scene = scene("v 10 -20 500");
     let viewpoint = [10.0, -20.0, 500.0];
     assert_eq!(
@@ -44,7 +44,7 @@ fn a_resolution_is_height_first_but_inside_the_nff_viewpoint() {
 }
 
 #[test]
-fn at_up_and_angle_make_the_nff_camera_wherever_they_stand() {
+fn at_up_and_angle_make_the_nff_camera_in_any_order() {
     let expected = |projection| Camera::Nff {
         from: [1.0, 2.0, 0.0],
         at: [3.0, 4.0, 5.0],
@@ -75,7 +75,7 @@ fn at_up_and_angle_make_the_nff_camera_wherever_they_stand() {
 }
 
 #[test]
-fn lights_have_three_forms_and_colourless_ones_share_one_unit() {
+fn lights_have_three_forms_and_those_without_a_colour_share_one_unit() {
     let scene = scene("v 0 0 1 l 1 2 3 l 4 5 6 0.25 l 7 8 9 1 2 3 l 0 0 0");
     let colours: Vec<_> = scene.lights.iter().map(|light| light.colour).collect();
     assert_eq!(colours, [[0.5; 3], [0.25; 3], [1.0, 2.0, 3.0], [0.5; 3]]);
@@ -180,9 +180,9 @@ fn polygons_and_patches_share_the_vertices() {
     );
 }
 
-/// Figure 9's layout, an NFF file and one long line are the same to the parser.
+/// The parser reads the layout of figure 9, an NFF file and one long line alike.
 #[test]
-fn line_breaks_mean_nothing() {
+fn line_breaks_have_no_meaning() {
     let source = "v 0 0 500\nresolution 10 20\nf 1 0 0\n0 1 0\n0 0 1\n5 0.5 0\np 4\n0 0 0\n1 0 0\n\
                   1 1 0\n0 1 0\nl 1 2 3 4";
     let one_line = source.replace('\n', " ");

@@ -1,6 +1,6 @@
-//! Parsing takes little more memory than the scene it gives.
+//! Parsing needs little more memory than the resulting scene.
 
-use octray_scenes::generate::{Kind, Spec};
+use octray_scenes::generate::{SceneKind, Spec};
 use octray_scenes::model::{Object, Point, Scene};
 use octray_scenes::{generate, parse, write};
 
@@ -9,11 +9,11 @@ fn size(scene: &Scene) -> u64 {
     (scene.objects.len() * size_of::<Object>() + points * size_of::<Point>()) as u64
 }
 
-/// A list that grows by doubling is at most three times its contents while it moves. The number of
-/// allocations is that of doublings: nothing is allocated for a token or an object.
+/// While a list that grows by doubling moves, it takes at most three times its contents. The number of allocations is
+/// that of the doublings: tokens and objects need none.
 #[test]
 fn memory_is_bounded_by_the_scene() {
-    for kind in Kind::ALL {
+    for kind in SceneKind::ALL {
         let scene = generate(
             Spec {
                 kind,

@@ -1,6 +1,6 @@
-//! What holds for every source and every scene.
+//! Properties of every source and every scene.
 
-use octray_scenes::diagnostic::{Kind, MOST};
+use octray_scenes::diagnostic::{MOST, MistakeKind};
 use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
 use octray_scenes::{check, parse, write};
 use proptest::collection::vec;
@@ -11,7 +11,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
-    fn any_scene_comes_back_from_a_file(scene in scene()) {
+    fn any_scene_survives_a_file(scene in scene()) {
         prop_assert_eq!(check::scene(&scene), Ok(()));
         let mut text = Vec::new();
         write(&scene, &mut text).unwrap();
@@ -34,15 +34,15 @@ proptest! {
         judge(&text)?;
     }
 
-    /// Near misses: all tokens are of the language, but in any order.
+    /// Near misses: tokens of the language in any order.
     #[test]
     fn any_tokens_give_a_scene_or_mistakes_that_can_be_drawn(tokens in vec(token(), 0..60)) {
         judge(&tokens.concat())?;
     }
 
-    /// A good scene with a part cut out.
+    /// A valid scene with a part cut out.
     #[test]
-    fn a_torn_scene_gives_a_scene_or_mistakes_that_can_be_drawn(
+    fn a_scene_with_a_gap_gives_a_scene_or_mistakes_that_can_be_drawn(
         scene in scene(), from in any::<prop::sample::Index>(), length in 0usize..30
     ) {
         let mut text = Vec::new();
@@ -53,7 +53,7 @@ proptest! {
     }
 
     #[test]
-    fn white_space_and_comments_mean_nothing(scene in scene(), space in vec(space(), 16)) {
+    fn white_space_and_comments_have_no_meaning(scene in scene(), space in vec(space(), 16)) {
         let mut text = Vec::new();
         write(&scene, &mut text).unwrap();
         let mut spaces = space.iter().cycle();
@@ -66,7 +66,7 @@ proptest! {
     }
 }
 
-/// What is accepted keeps the promises; mistakes are few, in order, and in the source.
+/// Checks that an accepted scene satisfies the invariants, and that mistakes are few, in order, and within the source.
 fn judge(source: &str) -> Result<(), TestCaseError> {
     match parse(source) {
         Ok(scene) => prop_assert_eq!(check::scene(&scene), Ok(())),
@@ -76,7 +76,7 @@ fn judge(source: &str) -> Result<(), TestCaseError> {
             for mistake in &mistakes.list {
                 let span = mistake.span;
                 prop_assert!(source.get(span.start..span.end).is_some(), "{:?}", mistake);
-                if let Kind::Duplicate { first, .. } = mistake.kind {
+                if let MistakeKind::Duplicate { first, .. } = mistake.kind {
                     prop_assert!(first.end <= span.start);
                 }
             }
@@ -228,7 +228,7 @@ fn part() -> impl Strategy<Value = Part> {
     ])
 }
 
-/// Vertices in a plane, which may cross themselves.
+/// Vertices in a plane; edges may cross.
 fn vertices() -> impl Strategy<Value = Vec<Point>> {
     let place = (-100i32..100, -100i32..100);
     let frame = prop::array::uniform3(prop::array::uniform3(-20i32..20));
@@ -240,7 +240,7 @@ fn vertices() -> impl Strategy<Value = Vec<Point>> {
     })
 }
 
-/// A scene as the parser might give it.
+/// A scene as the parser might return it.
 fn scene() -> impl Strategy<Value = Scene> {
     let light = (point(), prop::array::uniform3(coefficient()))
         .prop_map(|(position, colour)| Light { position, colour });

@@ -6,7 +6,7 @@ use octray_prepare::Arith;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::picture::{self, RasDepth, Target};
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_tests::shot::{self, Shot};
 use std::collections::BTreeSet;
 use std::fs;
@@ -90,7 +90,9 @@ fn the_benchmark_knows_its_pictures() {
         let scene = match name.split_once(' ') {
             None => shot::read(&root.join("../scenes").join(name).with_extension("scene")),
             Some((kind, objects)) => {
-                let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
+                let kind = SceneKind::ALL
+                    .into_iter()
+                    .find(|known| known.name() == kind);
                 let (kind, objects) = (kind.unwrap(), objects.parse().unwrap());
                 if objects > MOST_OBJECTS {
                     continue;

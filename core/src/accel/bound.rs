@@ -1,5 +1,6 @@
 //! The numbers that boxes are held in, apart from the scene's own arithmetic.
 
+use crate::array::map3;
 use core::fmt::Debug;
 
 /// A number for coordinates of boxes and distances along a ray: `f32`, `f64`, or the bits of a
@@ -78,10 +79,12 @@ macro_rules! float_bound {
                 (self - origin) * inverse
             }
 
+            #[cfg_attr(not(target_os = "none"), inline(always))]
             fn round_down(self) -> Self {
                 self - (self.abs() * (2.0 * $unit) + $least)
             }
 
+            #[cfg_attr(not(target_os = "none"), inline(always))]
             fn round_up(self) -> Self {
                 self + (self.abs() * (2.0 * $unit) + $least)
             }
@@ -155,10 +158,12 @@ macro_rules! fixed_bound {
                 }
             }
 
+            #[cfg_attr(not(target_os = "none"), inline(always))]
             fn round_down(self) -> Self {
                 Ord::max(self.saturating_sub(4), Self::MIN)
             }
 
+            #[cfg_attr(not(target_os = "none"), inline(always))]
             fn round_up(self) -> Self {
                 self.saturating_add(4)
             }
@@ -173,12 +178,12 @@ macro_rules! fixed_bound {
             const NO_AREA: u64 = 0;
 
             fn half_area(sides: [Self; 3]) -> u64 {
-                let [x, y, z] = sides.map(|s| (s as $unsigned >> $down) as u64);
+                let [x, y, z] = map3(sides, |s| (s as $unsigned >> $down) as u64);
                 x * y + y * z + z * x
             }
 
             fn volume(sides: [Self; 3]) -> u64 {
-                let [x, y, z] = sides.map(|s| (s as $unsigned >> $down) as u64);
+                let [x, y, z] = map3(sides, |s| (s as $unsigned >> $down) as u64);
                 x * y * z
             }
 

@@ -2,6 +2,7 @@
 
 use super::bound::BoundScalar;
 use super::scalar::AccelScalar;
+use crate::array::map3;
 use crate::ray::Aabb;
 use crate::vec3::{Axis, Vec3, vec3};
 
@@ -33,7 +34,7 @@ pub(super) fn to_bounds<S: AccelScalar>(bounds: Aabb<S>) -> Aabb<S::Bound> {
 
 /// The sides of a box, none of them negative.
 pub(super) fn side_lengths<B: BoundScalar>(bounds: &Aabb<B>) -> [B; 3] {
-    Axis::ALL.map(|a| {
+    map3(Axis::ALL, |a| {
         if bounds.low[a] < bounds.high[a] {
             bounds.high[a].difference(bounds.low[a])
         } else {
@@ -44,6 +45,6 @@ pub(super) fn side_lengths<B: BoundScalar>(bounds: &Aabb<B>) -> [B; 3] {
 
 /// The middle of a box.
 pub(super) fn centroid<B: BoundScalar>(bounds: &Aabb<B>) -> Vec3<B> {
-    let [x, y, z] = Axis::ALL.map(|a| bounds.low[a].midpoint(bounds.high[a]));
+    let [x, y, z] = map3(Axis::ALL, |a| bounds.low[a].midpoint(bounds.high[a]));
     vec3(x, y, z)
 }

@@ -19,7 +19,7 @@ impl BruteForce<'_> {
         query: &mut Query<'_, S, O, ANY, FEATURES>,
         (): &mut (),
     ) {
-        query.test_list(self.0);
+        query.test_list::<true>(self.0);
     }
 }
 

@@ -1,4 +1,4 @@
-//! A query: a ray, and what a walk has found of what it meets.
+//! A query of an accelerator: a ray, and the best hit so far.
 
 use super::accelerator::Hit;
 use crate::features::FeatureSet;
@@ -38,11 +38,20 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     }
 
     /// Tests the objects of a list up to the marked one. True if the query is over.
+    ///
+    /// With `INLINE` the tests are compiled into the walk. Without, hosts call [`Shapes::shared_hit`], so that a walk is
+    /// a fifth of the code. Firmware has one walk, and always inlines.
+    ///
+    /// [`Shapes::shared_hit`]: crate::shape::Shapes::shared_hit
     #[inline(always)]
-    pub(super) fn test_list(&mut self, links: &[ObjectRef]) -> bool {
+    pub(super) fn test_list<const INLINE: bool>(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
             let shapes = &self.scene.shapes;
-            let hit = shapes.hit(object, self.ray, self.limit, self.observer);
+            let hit = if INLINE || cfg!(target_os = "none") {
+                shapes.hit(object, self.ray, self.limit, self.observer)
+            } else {
+                shapes.shared_hit(object, self.ray, self.limit, self.observer)
+            };
             self.observer.test(object.kind(), hit.is_some());
             if let Some(t) = hit {
                 if ANY {
@@ -71,7 +80,7 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     }
 }
 
-/// Whether an object at the very distance of the one found comes before it in the scene file.
+/// Whether an object at the same distance as the one found comes before it in the scene file.
 #[cold]
 #[inline(never)]
 fn precedes<S: Scalar, const FEATURES: FeatureSet>(
@@ -86,7 +95,7 @@ fn precedes<S: Scalar, const FEATURES: FeatureSet>(
 /// Implements [`Accelerator`](super::Accelerator) by a type's method `walk`, which takes a query and
 /// a stack.
 ///
-/// Never inlined: with one copy of the walk per use the tracer fits the code cache.
+/// The walk is not inlined into the tracer, which would not fit the code cache then.
 macro_rules! accelerate {
     ([$($generics:tt)*] $accelerator:ty, stack: $stack:ty, scalar: $scalar:ident) => {
         impl<S: $scalar, const FEATURES: $crate::features::FeatureSet $($generics)*>

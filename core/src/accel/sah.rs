@@ -29,7 +29,7 @@ impl<B: BoundScalar> Group<B> {
     }
 }
 
-/// Parts a range of objects into up to eight groups: the one of the largest surface is parted
+/// Divides a range of objects into up to eight groups: the group of the largest surface is split
 /// again and again, until each fits a leaf or there are eight.
 pub(super) fn split_into_groups<B: BoundScalar>(
     start: usize,
@@ -63,7 +63,7 @@ pub(super) fn split_into_groups<B: BoundScalar>(
         groups[count] = Group::of(middle, end, boxes);
         count += 1;
     }
-    // A search for any hit tries the children in this order: the largest is the likeliest.
+    // A query for any hit tries the children in this order: the largest is the likeliest.
     groups
         .get_mut(..count)
         .unwrap_or_default()
@@ -78,10 +78,10 @@ pub(super) fn split_into_groups<B: BoundScalar>(
 
 const BINS: usize = 16;
 
-/// Parts a range of boxes in two by the surface area heuristic (Wald, "On fast Construction of
+/// Splits a range of boxes in two by the surface area heuristic (Wald, "On fast Construction of
 /// SAH-based Bounding Volume Hierarchies", 2007): the best of 15 planes on each axis between
-/// middles. Returns how many come first; the boxes and what goes with them are reordered. Boxes
-/// whose middles coincide are parted half and half.
+/// centroids. Returns how many come first; the boxes and the elements that belong to them are
+/// reordered. Boxes whose centroids coincide are split half and half.
 pub(super) fn partition<B: BoundScalar, T: Copy>(boxes: &mut [Aabb<B>], things: &mut [T]) -> usize {
     let mut middles = empty_box();
     for bounds in boxes.iter() {
@@ -142,7 +142,7 @@ pub(super) fn partition<B: BoundScalar, T: Copy>(boxes: &mut [Aabb<B>], things: 
     first
 }
 
-/// `slice::swap` without a panic: nothing happens to places that are not there.
+/// `slice::swap` without a panic: indices out of range do nothing.
 fn swap<T: Copy>(things: &mut [T], a: usize, b: usize) {
     if let (Some(&x), Some(&y)) = (things.get(a), things.get(b)) {
         for (place, thing) in [(a, y), (b, x)] {

@@ -8,6 +8,7 @@
 use super::float::power_f32;
 use super::operators::operators;
 use super::{Exponent, Intensity, Ratio, Scalar, Tolerance};
+use crate::array::map3;
 use core::cmp::Ordering;
 use micromath::F32Ext;
 
@@ -109,7 +110,7 @@ impl<const N: u32> Scalar for Approx<N> {
         let square = v[0].0 * v[0].0 + v[1].0 * v[1].0 + v[2].0 * v[2].0;
         if square >= f32::MIN_POSITIVE {
             let inverse = Self(Self::rsqrt(square));
-            (v.map(|c| c * inverse), Self(square) * inverse)
+            (map3(v, |c| c * inverse), Self(square) * inverse)
         } else {
             (v, Self(0.0))
         }

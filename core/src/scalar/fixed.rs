@@ -14,6 +14,7 @@ pub use wide::Fixed64;
 use super::operators::operators;
 use super::zeros::{leading_zeros, leading_zeros_64};
 use super::{Exponent, Intensity, Ratio, SaturationCounter, Scalar, Tolerance, multiply};
+use crate::array::map3;
 use core::cmp::Ordering;
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
@@ -23,9 +24,8 @@ use root::rsqrt_q30;
 /// A signed 32-bit number with `F` bits behind the point, 4 ≤ `F` ≤ 28: steps of 2⁻ᶠ, values from
 /// −2³¹⁻ᶠ to 2³¹⁻ᶠ.
 ///
-/// `+`, `-` and `*` need no saturation where the scene's bounds prove that nothing overflows, as
-/// they do for every scene that a planner accepted. With a counter that is
-/// [checked](SaturationCounter::CHECKED) they saturate all the same, and `C` counts each
+/// Scenes are scaled so that nothing overflows. With a counter that is
+/// [checked](SaturationCounter::CHECKED) `+`, `-` and `*` saturate all the same, and `C` counts each
 /// saturation; with `()` they wrap, in fewer instructions. All give the same bits as long as nothing
 /// saturates.
 ///
@@ -224,7 +224,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         (multiply::unsigned(self.0.max(0) as u32, n) >> F) as u32
     }
 
-    // Where a call costs little beside its products, one copy is enough.
+    // Not inlined where a call is cheap next to its products: one copy is smaller.
     #[cfg_attr(octray_armv6m, inline(never))]
     #[cfg_attr(not(octray_armv6m), inline(always))]
     fn unit(v: [Self; 3]) -> ([Self; 3], Self) {
@@ -234,7 +234,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         }
         // The largest component comes to lie in [2³⁰, 2³¹), whatever the length.
         let up = leading_zeros(size).saturating_sub(1);
-        let [x, y, z] = v.map(|c| c.0 << up);
+        let [x, y, z] = map3(v, |c| c.0 << up);
         // In [2⁶⁰, 2⁶⁴): an even number of leading zeros is 0 or 2.
         let square = multiply::square(x)
             .wrapping_add(multiply::square(y))
@@ -245,7 +245,7 @@ impl<const F: u32, C: SaturationCounter> Scalar for Fixed<F, C> {
         // Below the upper word of the product, and at most 26.
         let shift = 30 - F - zeros / 2;
         let half = (1i32 << shift) >> 1;
-        let unit = [x, y, z].map(|c| {
+        let unit = map3([x, y, z], |c| {
             let product = multiply::signed(c, inverse_q30 as i32);
             Self::from_bits(((product >> 32) as i32).wrapping_add(half) >> shift)
         });

@@ -1,5 +1,5 @@
-//! `f32` and `f64`: hardware or software floating point, with libm for the roots
-//! but where an instruction takes them ([`root`]).
+//! `f32` and `f64`: hardware or software floating point, with roots by libm,
+//! or by an instruction where there is one ([`root`]).
 
 use super::{Exponent, Intensity, Ratio, Scalar, Tolerance, root};
 
@@ -50,7 +50,7 @@ macro_rules! float {
                 self / divisor
             }
 
-            // A division costs no more than the question.
+            // A division costs no more than this test would.
             #[inline(always)]
             fn quotient_exceeds(_: Self, _: Self, _: Self) -> bool {
                 false

@@ -15,14 +15,14 @@ pub(super) fn sqrt_f32(x: f32) -> f32 {
     return libm::sqrtf(x);
 }
 
-/// By the floating-point unit of Cortex-M4F, M7 and A. Inline assembly knows its registers in
+/// By the floating-point unit of Cortex-M4F, M7 and A. Inline assembly can name its registers in
 /// nightly compilers only; by the hard-float calling convention argument and result are in s0.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[unsafe(naked)]
 extern "C" fn vsqrt(_x: f32) -> f32 {
     // SAFETY: it changes s0 alone, and returns to its caller.
-    // The instruction is vsqrt.f32 s0, s0, whose name the assembler refuses there: it does not know
-    // of the target's floating-point unit.
+    // The instruction is vsqrt.f32 s0, s0, written as a number: the assembler is not told here that
+    // the target has a floating-point unit.
     core::arch::naked_asm!(".inst.w 0xeeb10ac0", "bx lr")
 }
 

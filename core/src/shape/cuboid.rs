@@ -22,9 +22,9 @@ struct Crossing<S> {
 }
 
 impl<S: Tolerance> Cuboid<S> {
-    /// The slab method (Kay and Kajiya 1986). A ray along a slab is inside or outside of it for
-    /// good, its faces included; no quotient is formed. A ray through an edge meets the box: the
-    /// far side is taken for as far as rounding can have brought it nearer.
+    /// The slab method (Kay and Kajiya 1986). A ray parallel to a slab is inside of it all along,
+    /// its faces included, or outside; nothing is divided. A ray through an edge meets the box: the far
+    /// side is taken as far away as rounding can have moved it (Ize, "Robust BVH Ray Traversal", 2013).
     #[inline(always)]
     fn cross(&self, ray: &Ray<S>) -> Option<Crossing<S>> {
         let mut entry = (-S::MAX, Axis::X);

@@ -8,7 +8,7 @@ use crate::vec3::Vec3;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Patch<S> {
-    /// The normal of the first vertex in [`super::Shapes::normals`]; one for each vertex.
+    /// The normal of the first vertex in [`Shapes::normals`](super::Shapes::normals); one for each vertex.
     pub first_normal: u32,
     /// The scale, for [`Scalar::to_local`], that brings the patch's projected extent to [½, 1).
     pub exponent: i8,
@@ -26,7 +26,10 @@ impl<S: Scalar> Patch<S> {
         normals: &[Vec3<S>],
     ) -> Option<Vec3<S>> {
         let normals = normals.get(self.first_normal as usize..)?;
-        let local = |a: [S; 2], b: [S; 2]| [0, 1].map(|i| (a[i] - b[i]).to_local(self.exponent));
+        let local = |a: [S; 2], b: [S; 2]| {
+            let along = |i: usize| (a[i] - b[i]).to_local(self.exponent);
+            [along(0), along(1)]
+        };
         let area =
             |a: [S; 2], b: [S; 2]| S::narrow(S::product(a[0], b[1]) - S::product(a[1], b[0]));
         let origin = *corners.first()?;

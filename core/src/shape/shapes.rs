@@ -153,9 +153,22 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         }
     }
 
-    /// Whether `ray` meets the object at 0 < t ≤ `limit`: [`Shapes::hit`], once more in the code
-    /// for where it is not the innermost loop.
+    /// [`Shapes::hit`], once more in the code for where it is not the innermost loop.
     #[inline(never)]
+    pub(crate) fn shared_hit<O: Observer>(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        limit: S,
+        observer: &mut O,
+    ) -> Option<S> {
+        self.hit(object, ray, limit, observer)
+    }
+
+    /// Whether `ray` meets the object at 0 < t ≤ `limit`. On hosts by [`Shapes::shared_hit`]; on
+    /// firmware, where nothing else uses that, by a copy that says no more than this.
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn blocks<O: Observer>(
         &self,
         object: ObjectRef,
@@ -163,7 +176,11 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         limit: S,
         observer: &mut O,
     ) -> bool {
-        self.hit(object, ray, limit, observer).is_some()
+        if cfg!(target_os = "none") {
+            self.hit(object, ray, limit, observer).is_some()
+        } else {
+            self.shared_hit(object, ray, limit, observer).is_some()
+        }
     }
 
     /// The box that every hit of the object lies in.

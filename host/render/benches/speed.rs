@@ -22,7 +22,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::render::{Rendering, render_with};
 use octray_render::schedule::Schedule;
 use octray_render::stats::Rays;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use std::fs::File;
 use std::io::BufWriter;
 use std::num::NonZeroUsize;
@@ -51,11 +51,11 @@ const FIGURES: [&str; 5] = [
 ];
 
 /// The kinds of scene that are generated in each of [`SIZES`].
-const GROWING: [Kind; 3] = [Kind::Flake, Kind::Lattice, Kind::Soup];
+const GROWING: [SceneKind; 3] = [SceneKind::Flake, SceneKind::Lattice, SceneKind::Soup];
 const SIZES: [usize; 5] = [100, 1000, 10_000, 100_000, 1_000_000];
 
 /// Further scenes to generate, and their size.
-const OTHERS: [Kind; 2] = [Kind::Terrain, Kind::Tree];
+const OTHERS: [SceneKind; 2] = [SceneKind::Terrain, SceneKind::Tree];
 const OTHERS_SIZE: usize = 10_000;
 
 const SEED: u64 = 1;

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Arguments of `octray bake`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-The source names the crate octray_core alone; include it in a module of its own.")]
+The source refers to no crate but octray_core. Include it in a module of its own.")]
 pub struct BakeArgs {
     /// The scene file
     scene: PathBuf,
@@ -28,20 +28,20 @@ pub struct BakeArgs {
     /// The tree to bake
     #[arg(long, value_name = "KIND", value_parser = value::choice::<FirmwareTree>(), default_value = FirmwareTree::default().name())]
     tree: FirmwareTree,
-    /// How often a ray may bounce
+    /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)))]
     max_depth: u32,
-    /// The weight below which a ray is not traced
+    /// Do not trace rays of a smaller weight than this, from 0 to 1
     #[arg(long, value_name = "C", default_value = "1/512", value_parser = value::weight)]
     cut_off: f64,
-    /// Objects up to which a node of the tree is not divided [default: as suits the target]
+    /// Do not divide a node of up to N objects [default: depends on the target]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroU32>)]
     leaf_size: Option<NonZeroU32>,
-    /// The target's triple, such as thumbv6m-none-eabi: decides the leaf size, and whether a tree pays with --tree auto
-    /// [default: one with a fast multiplier and, for floats, a floating-point unit]
+    /// The target's triple, such as thumbv6m-none-eabi. Decides the leaf size, and whether --tree auto builds a tree
+    /// [default: a target with a fast multiplier and, for floats, a floating-point unit]
     #[arg(long, alias = "targets", value_name = "TRIPLE", verbatim_doc_comment)]
     target: Option<String>,
-    /// All of this as `octray plan --emit` has written it
+    /// Take all of these options from a file that `octray plan --emit` wrote
     #[arg(long, value_name = "FILE", conflicts_with_all = ["arith", "size", "pixels_per_ray", "tree", "max_depth", "cut_off", "leaf_size", "target"])]
     plan: Option<PathBuf>,
     /// The Rust source [default: standard output]
@@ -50,7 +50,7 @@ pub struct BakeArgs {
 }
 
 impl BakeArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
     /// [`Error::Usage`] if the output would replace the scene or the plan.

@@ -1,7 +1,7 @@
 //! Arguments of `octray diff`.
 
 use super::{files, value};
-use crate::diff::{Bounds, DiffJob, Share};
+use crate::diff::{DiffJob, DiffLimits, Share};
 use clap::Args;
 use octray_prepare::choice::Choice;
 use octray_render::error::Error;
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `octray diff`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Pictures are PNG, PPM (P6), PFM or Sun rasterfiles, whatever their names, and are compared by their \
+Pictures are PNG, PPM (P6), PFM or Sun rasterfiles; the file's contents decide. They are compared by their \
 8-bit levels. A pixel's difference is the largest of its channels' differences. The exit code is 1 when \
 any bound is exceeded. In JSON, the PSNR of equal pictures, which is infinite, is null.")]
 pub struct DiffArgs {
@@ -50,7 +50,7 @@ pub struct DiffArgs {
 const BOUNDS: &str = "Bounds";
 
 impl DiffArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
     /// [`Error::Usage`] if the heat map would replace a picture.
@@ -63,7 +63,7 @@ impl DiffArgs {
             heat: self.output,
             ras_depth: self.ras_depth,
             json: self.json,
-            bounds: Bounds {
+            limits: DiffLimits {
                 rmse: self.max_rmse,
                 psnr: self.min_psnr,
                 largest: self.max_difference,

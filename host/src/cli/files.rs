@@ -1,15 +1,15 @@
-//! The files that arguments name: no result is written over what is read, or over another result.
+//! Checks of the files that arguments name: no result may replace an input or another result.
 
 use octray_render::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf, absolute};
 
-/// Make sure that each of `results` is a file of its own, and none of `inputs`, however they are spelled:
-/// `a.scene`, `./a.scene` and a symbolic link to it are one file. Devices and pipes may be named for several
-/// things at once, for nothing in them is replaced.
+/// Checks that no two of `results` are the same file, and that none of them is one of `inputs`. Different spellings of
+/// a path count as one file: `a.scene`, `./a.scene` and a symbolic link to it. Devices and pipes may be named
+/// repeatedly, because writing to them replaces nothing.
 ///
 /// # Errors
-/// [`Error::Usage`] naming the first result that would replace something.
+/// [`Error::Usage`], which names the first result that would replace something.
 pub fn distinct<I: AsRef<Path>, R: AsRef<Path>>(
     inputs: impl IntoIterator<Item = I>,
     results: impl IntoIterator<Item = R>,
@@ -40,7 +40,8 @@ pub fn distinct<I: AsRef<Path>, R: AsRef<Path>>(
     Ok(())
 }
 
-/// The one name of the regular file that `path` is or would become; `None` for what is there and is none.
+/// Returns the canonical path of the regular file that `path` is or would become, and `None` if something else exists
+/// there.
 fn identity(path: &Path) -> Option<PathBuf> {
     if let Ok(found) = fs::metadata(path) {
         return (found.is_file()).then(|| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
@@ -57,8 +58,8 @@ fn identity(path: &Path) -> Option<PathBuf> {
 mod tests {
     use super::*;
 
-    /// What is said of them, in a folder with a file `a` and a folder `deep`.
-    fn told(inputs: &[&str], results: &[&str]) -> Option<String> {
+    /// Returns the error message for these names, in a folder with a file `a` and a folder `deep`.
+    fn message(inputs: &[&str], results: &[&str]) -> Option<String> {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("a"), "").unwrap();
         fs::create_dir(folder.path().join("deep")).unwrap();
@@ -74,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_known_under_every_name() {
+    fn a_file_is_recognised_under_every_spelling() {
         for name in [
             "a",
             "./a",
@@ -82,24 +83,24 @@ mod tests {
             #[cfg(unix)]
             "link",
         ] {
-            let text = told(&["a"], &["b", name]).unwrap();
+            let text = message(&["a"], &["b", name]).unwrap();
             assert!(text.contains("which is read"), "{name}: {text}");
-            let text = told(&[], &[name, "a"]).unwrap();
+            let text = message(&[], &[name, "a"]).unwrap();
             assert!(text.contains("are one file"), "{name}: {text}");
         }
     }
 
     #[test]
-    fn results_that_do_not_exist_yet_are_told_apart_too() {
-        assert!(told(&["a"], &["b", "./b"]).is_some());
-        assert!(told(&["a"], &["b", "deep/../b"]).is_some());
-        assert!(told(&["a"], &["no/b", "no/./b"]).is_some());
-        assert_eq!(told(&["a"], &["b", "c", "deep/a", "no/a"]), None);
+    fn results_that_do_not_exist_yet_are_distinguished_too() {
+        assert!(message(&["a"], &["b", "./b"]).is_some());
+        assert!(message(&["a"], &["b", "deep/../b"]).is_some());
+        assert!(message(&["a"], &["no/b", "no/./b"]).is_some());
+        assert_eq!(message(&["a"], &["b", "c", "deep/a", "no/a"]), None);
     }
 
     #[test]
     fn reading_a_file_twice_is_no_mistake() {
-        assert_eq!(told(&["a", "./a"], &["b"]), None);
+        assert_eq!(message(&["a", "./a"], &["b"]), None);
     }
 
     #[cfg(unix)]

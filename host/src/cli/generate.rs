@@ -3,7 +3,7 @@
 use crate::generate::GenerateJob;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
-use octray_scenes::generate::{Kind, Spec};
+use octray_scenes::generate::{SceneKind, Spec};
 use std::path::PathBuf;
 
 /// Arguments of `octray generate`.
@@ -13,11 +13,11 @@ The same kind, count and seed give the same scene on every machine.")]
 pub struct GenerateArgs {
     /// What the scene shows
     #[arg(value_parser = kind())]
-    kind: Kind,
-    /// How many objects, the ground included; terrains and trees may have a few less
+    kind: SceneKind,
+    /// Number of objects, including the ground; terrains and trees may have a few fewer
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=MOST))]
     count: u32,
-    /// Another seed, another scene of the same kind
+    /// Seed of the random numbers; another seed gives another scene of the same kind
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// The scene file [default: standard output]
@@ -25,11 +25,11 @@ pub struct GenerateArgs {
     output: Option<PathBuf>,
 }
 
-/// As many objects as fit comfortably into memory.
+/// The largest number of objects that fits comfortably into memory.
 const MOST: i64 = 10_000_000;
 
 impl GenerateArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     pub fn job(self) -> GenerateJob {
         GenerateJob {
             spec: Spec {
@@ -42,20 +42,20 @@ impl GenerateArgs {
     }
 }
 
-fn kind() -> impl TypedValueParser<Value = Kind> {
-    let values = Kind::ALL.map(|kind| PossibleValue::new(kind.name()).help(description(kind)));
+fn kind() -> impl TypedValueParser<Value = SceneKind> {
+    let values = SceneKind::ALL.map(|kind| PossibleValue::new(kind.name()).help(description(kind)));
     PossibleValuesParser::new(values).try_map(|name| {
-        let named = Kind::ALL.into_iter().find(|kind| kind.name() == name);
+        let named = SceneKind::ALL.into_iter().find(|kind| kind.name() == name);
         named.ok_or("no such kind")
     })
 }
 
-fn description(kind: Kind) -> &'static str {
+fn description(kind: SceneKind) -> &'static str {
     match kind {
-        Kind::Flake => "Spheres that carry smaller spheres, and so on",
-        Kind::Lattice => "A cube of spheres joined by rods",
-        Kind::Terrain => "Fractal mountains of triangles around a lake",
-        Kind::Tree => "A tree of cones and spheres",
-        Kind::Soup => "Shapes of all kinds strewn at random",
+        SceneKind::Flake => "Spheres that carry smaller spheres, and so on",
+        SceneKind::Lattice => "A cube of spheres joined by rods",
+        SceneKind::Terrain => "Fractal mountains of triangles around a lake",
+        SceneKind::Tree => "A tree of cones and spheres",
+        SceneKind::Soup => "Shapes of all kinds placed at random",
     }
 }

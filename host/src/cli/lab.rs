@@ -26,29 +26,29 @@ use octray_render::interrupt::Interrupt;
 /// A command of the laboratory with its arguments.
 #[derive(Debug, Subcommand)]
 pub enum LabCommand {
-    /// Simulate how well a picture is shared among any number of processors
+    /// Simulate how well tiles of a picture keep any number of processors busy
     Schedule(ScheduleArgs),
-    /// Measure what pictures cost on small targets, in an emulator
+    /// Measure the cost of pictures on microcontrollers, in an emulator
     Measure(MeasureArgs),
-    /// Find the least a scene needs on a small target, and predict what it costs
+    /// Find the least that a scene needs on a microcontroller, and predict its cost
     Plan(PlanArgs),
-    /// Chart what accuracy costs, over arithmetics and settings, and choose
+    /// Chart accuracy against cost over arithmetics and settings, and choose a point
     Chart(ChartArgs),
     /// Write one page with pictures, charts, tables and limits
     Report(ReportArgs),
-    /// Show where methods hold, degrade and break, in every arithmetic
+    /// Show up to which values methods hold, degrade and break, in every arithmetic
     Stability(StabilityArgs),
-    /// Reprint the tables of the thesis from our own runs
+    /// Reproduce the tables of the thesis from our own runs
     Tables(TablesArgs),
-    /// Draw a scene on a simulated panel, strip by strip, with the code that draws on boards
+    /// Draw a scene on a simulated panel, strip by strip, with the code that boards run
     Panel(PanelArgs),
 }
 
 impl LabCommand {
-    /// Does it.
+    /// Runs the command.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the arguments contradict each other; what the command fails with.
+    /// [`Error::Usage`] if the arguments contradict each other; otherwise the command's own errors.
     pub fn run(self, interrupt: &Interrupt) -> Result<(), Error> {
         match self {
             Self::Schedule(args) => octray_lab::schedule::run(&args.job()?, interrupt),

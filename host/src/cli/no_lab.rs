@@ -1,14 +1,14 @@
-//! The laboratory's commands where it is not built in: each says how to get it.
+//! The laboratory's commands in a build without the laboratory: each reports how to get it.
 
 use clap::{Args, Subcommand};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 
-/// A command of the laboratory, which is missing.
+/// A command of the laboratory, which this build does not contain.
 #[derive(Debug, Subcommand)]
 pub enum LabCommand {
     #[command(hide = true)]
-    #[allow(missing_docs, reason = "what it does stands where it is built in")]
+    #[allow(missing_docs, reason = "documented in the build with the laboratory")]
     Schedule(Missing),
     #[command(hide = true)]
     #[allow(missing_docs, reason = "the same")]
@@ -33,7 +33,7 @@ pub enum LabCommand {
     Panel(Missing),
 }
 
-/// Whatever arguments.
+/// Any arguments; they are ignored.
 #[derive(Debug, Args)]
 #[command(disable_help_flag = true)]
 pub struct Missing {
@@ -42,7 +42,7 @@ pub struct Missing {
 }
 
 impl LabCommand {
-    /// Says how to get it.
+    /// Reports how to build the command.
     ///
     /// # Errors
     /// Always [`Error::Usage`].

@@ -31,40 +31,40 @@ pub struct RenderArgs {
     /// Bits per pixel of a Sun rasterfile
     #[arg(long, value_name = "BITS", value_parser = value::choice::<RasDepth>(), default_value = RasDepth::default().name())]
     ras_depth: RasDepth,
-    /// What to tell on standard output
+    /// What to print on standard output
     #[arg(long, value_name = "FORM", value_parser = value::choice::<StatsFormat>(), default_value = StatsFormat::default().name())]
     stats: StatsFormat,
 
     /// Pixels that one ray colours
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name(), help_heading = RAYS)]
     pixels_per_ray: PixelsPerRay,
-    /// Trace K x K rays per pixel, and take their mean
+    /// Trace K x K rays per pixel and average them
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64), help_heading = RAYS)]
     samples: u32,
-    /// How often a ray may bounce
+    /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)), help_heading = RAYS)]
     max_depth: u32,
-    /// The weight, from 0 to 1, below which a ray is not traced
+    /// Do not trace rays of a smaller weight than this, from 0 to 1
     #[arg(long, value_name = "C", default_value = "1/512", value_parser = value::weight, help_heading = RAYS)]
     cut_off: f64,
 
-    /// The kind of tree; all give the same picture
+    /// The accelerator; all kinds give the same picture
     #[arg(long, value_name = "KIND", value_parser = value::choice::<TreeKind>(), default_value = TreeKind::default().name(), help_heading = TREE)]
     tree: TreeKind,
-    /// The deepest level of nodes, the root being level 0 [default: as suits the kind]
+    /// Deepest level of nodes; the root is level 0 [default: depends on the kind]
     #[arg(long, value_name = "D", value_parser = value_parser!(u32).range(0..=64), help_heading = TREE)]
     tree_depth: Option<u32>,
     /// Do not divide a node of up to N objects [default: 2]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroU32>, help_heading = TREE)]
     leaf_size: Option<NonZeroU32>,
-    /// Room for that many nodes; a full arena makes slower, never wrong [default: as many as it takes]
+    /// Memory for N nodes; a full arena makes rendering slower, never wrong [default: as many as needed]
     #[arg(long, value_name = "NODES", value_parser = value::positive::<NonZeroUsize>, help_heading = TREE)]
     arena: Option<NonZeroUsize>,
-    /// How the plain and the modified tree link objects into octants
+    /// How the plain and the modified octree assign objects to their cells
     #[arg(long, value_name = "BY", value_parser = value::choice::<Link>(), default_value = Link::default().name(), help_heading = TREE)]
     link: Link,
 
-    /// How many threads trace [default: one for each core; on each rank of --mpi one]
+    /// Number of threads [default: one per core; with --mpi one per rank]
     #[arg(long, value_name = "N", value_parser = value::threads, help_heading = WORK)]
     threads: Option<NonZeroUsize>,
     /// Which thread gets which tile
@@ -73,13 +73,13 @@ pub struct RenderArgs {
     /// Rows of a tile [default: 16, fewer with many threads]
     #[arg(long, alias = "packet-rows", value_name = "H", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     tile_rows: Option<NonZeroU32>,
-    /// Columns of a tile [default: 16, fewer with many threads; all with --tile-rows]
+    /// Columns of a tile [default: 16, fewer with many threads; the whole width with --tile-rows]
     #[arg(long, alias = "packet-columns", value_name = "W", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     tile_columns: Option<NonZeroU32>,
     /// Keep each thread on one core
     #[arg(long, help_heading = WORK)]
     pin: bool,
-    /// Share the work among the ranks that mpirun has started, each on one thread
+    /// Share the work among the ranks that mpirun started; each rank uses one thread
     #[arg(long, help_heading = WORK)]
     mpi: bool,
 }
@@ -92,7 +92,7 @@ const NO_MPI: &str = "this octray was built without MPI; install libopenmpi-dev 
     'cargo build --release --features mpi'";
 
 impl RenderArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
     /// [`Error::Usage`] when they contradict each other, or the picture would replace the scene.
@@ -112,7 +112,7 @@ impl RenderArgs {
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
             true if self.threads.is_some_and(|threads| threads.get() > 1) => {
-                return usage("with --mpi, a rank traces on one thread; start more ranks instead");
+                return usage("with --mpi, a rank uses one thread; start more ranks instead");
             }
             true => Some(NonZeroUsize::MIN),
             false => self.threads,
@@ -171,14 +171,14 @@ mod tests {
     use std::path::Path;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestCommand {
         #[command(flatten)]
         args: RenderArgs,
     }
 
     fn parse(line: &str) -> Result<RenderArgs, clap::Error> {
         let words = std::iter::once("render").chain(line.split_whitespace());
-        Line::try_parse_from(words).map(|line| line.args)
+        TestCommand::try_parse_from(words).map(|line| line.args)
     }
 
     fn job(line: &str) -> RenderJob {
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(shape("a.scene --tile-rows 9").as_deref(), Some("9 rows"));
         let tiles = shape("a.scene --tile-columns 9");
         assert_eq!(tiles.as_deref(), Some("9 x 16 pixels"));
-        // Their old names.
+        // The old names.
         let tiles = shape("a.scene --packet-columns 9 --packet-rows 3");
         assert_eq!(tiles.as_deref(), Some("9 x 3 pixels"));
     }
@@ -288,14 +288,14 @@ mod tests {
     #[test]
     fn ranks_trace_on_one_thread_and_only_with_mpi() {
         let asked = |flags| parse(&format!("a.scene --mpi {flags}")).unwrap().job();
-        let told = |flags| asked(flags).unwrap_err().to_string();
+        let message = |flags| asked(flags).unwrap_err().to_string();
         match cfg!(feature = "mpi") {
             true => {
                 let job = asked("").unwrap();
                 assert!(job.mpi && job.work.threads.get() == 1);
-                assert!(told("--threads 2").contains("start more ranks"));
+                assert!(message("--threads 2").contains("start more ranks"));
             }
-            false => assert!(told("").contains("--features mpi"), "{}", told("")),
+            false => assert!(message("").contains("--features mpi"), "{}", message("")),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Values on the command line, checked where they are read.
+//! Parsers of values on the command line, with range checks.
 
 use crate::diff::Share;
 use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
@@ -10,12 +10,12 @@ use std::marker::PhantomData;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
-/// A picture file whose extension names its format.
+/// Parses the name of a picture file whose extension states its format.
 pub fn target() -> impl TypedValueParser<Value = Target> {
     PathBufValueParser::new().try_map(Target::new)
 }
 
-/// One of a list of names, which help shows with what they mean.
+/// Parses one of a list of names; help shows the list with the meaning of each name.
 pub fn choice<T: Choice>() -> ChoiceParser<T> {
     ChoiceParser {
         ignore_case: false,
@@ -23,7 +23,7 @@ pub fn choice<T: Choice>() -> ChoiceParser<T> {
     }
 }
 
-/// Reads the names of a [`Choice`].
+/// Parses the names of a [`Choice`].
 #[derive(Clone, Debug)]
 pub struct ChoiceParser<T> {
     ignore_case: bool,
@@ -31,7 +31,7 @@ pub struct ChoiceParser<T> {
 }
 
 impl<T> ChoiceParser<T> {
-    /// The same, capital or small.
+    /// Ignores the case of letters.
     #[must_use]
     pub fn ignore_case(self) -> Self {
         Self {
@@ -86,10 +86,10 @@ impl<T: Choice> TypedValueParser for ChoiceParser<T> {
     }
 }
 
-/// `WxH`, both 1 to 65535.
+/// Parses `WxH`, both from 1 to 65535.
 ///
 /// # Errors
-/// What was expected.
+/// States what was expected.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |text: &str| text.parse::<u16>().ok().filter(|side| *side > 0);
     text.split_once(['x', 'X'])
@@ -97,16 +97,16 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
 }
 
-/// A whole number of at least 1, for one of the `NonZero` types.
+/// Parses a whole number of at least 1 into one of the `NonZero` types.
 pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
         .map_err(|_| "expected a whole number, at least 1".into())
 }
 
-/// The largest count of processors or threads, and side of a tile: no picture has more rows.
+/// The largest number of processors or threads, and the largest side of a tile: no picture has more rows.
 pub(super) const MOST: u32 = 65_536;
 
-/// A whole number from 1 to [`MOST`].
+/// Parses a whole number from 1 to [`MOST`].
 pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
     positive(text)
         .ok()
@@ -114,12 +114,12 @@ pub(super) fn count(text: &str) -> Result<NonZeroU32, String> {
         .ok_or_else(|| format!("expected a whole number from 1 to {MOST}"))
 }
 
-/// The same for a number of threads.
+/// Parses a number of threads from 1 to [`MOST`].
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     NonZeroUsize::try_from(count(text)?).map_err(|cause| cause.to_string())
 }
 
-/// A weight from 0 to 1, as a number or as a fraction such as `1/512`.
+/// Parses a weight from 0 to 1: a number, or a fraction such as `1/512`.
 pub(crate) fn weight(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.parse::<f64>().ok();
     let (above, below) = text.split_once('/').unwrap_or((text, "1"));
@@ -130,7 +130,7 @@ pub(crate) fn weight(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a weight from 0 to 1, such as 0.01 or 1/512".into())
 }
 
-/// A finite number of at least 0.
+/// Parses a finite number of at least 0.
 pub(super) fn not_negative(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
@@ -138,7 +138,7 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number, at least 0".into())
 }
 
-/// A number of pixels, or a percentage of them such as `0.1%`.
+/// Parses a number of pixels, or a percentage such as `0.1%`.
 pub(super) fn share(text: &str) -> Result<Share, String> {
     let expected = "expected a number of pixels, or a percentage of them such as 0.1%";
     match text.strip_suffix('%') {

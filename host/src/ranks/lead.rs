@@ -1,4 +1,4 @@
-//! What the first rank does: tell the others, deal tiles, take what comes back, and trace meanwhile.
+//! The first rank: sends the work to the others, hands out tiles, receives results, and traces meanwhile.
 
 use super::{NONE, PACKET, Plan, RESULT, TALLY, Tally, arrived, broadcast, buffer, failed, pause};
 use crate::job::RenderJob;
@@ -30,14 +30,14 @@ pub(super) struct Leader<'a> {
     state: State,
 }
 
-/// What the other ranks do.
+/// The state of the other ranks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
     /// They wait for the scene.
     Waiting,
     /// They trace.
     Working,
-    /// They have done all there was.
+    /// They have finished.
     Done,
 }
 
@@ -47,20 +47,20 @@ impl<'a> Leader<'a> {
         Self { world, state }
     }
 
-    /// Whether the others still wait to be told what to do.
+    /// Whether the others still wait for the scene.
     pub(super) fn waited_for(&self) -> bool {
         self.state == State::Waiting
     }
 
-    /// Whether no other rank is at work.
+    /// Whether no other rank is working.
     pub(super) fn alone(&self) -> bool {
         self.state != State::Working
     }
 
-    /// Trace what the job asks for, together with the others.
+    /// Traces the job together with the others.
     ///
     /// # Errors
-    /// As [`render::render_with`], and [`Error::Failed`] when a message makes no sense.
+    /// Those of [`render::render_with`], and [`Error::Failed`] for an invalid message.
     pub(super) fn trace(
         &mut self,
         scene: &Scene,
@@ -75,7 +75,7 @@ impl<'a> Leader<'a> {
         let (mut picture, region) = render::blank(&*renderer, job.output.holds_intensities())?;
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
-        // A message costs so much that smaller tiles gain nothing.
+        // A message is too expensive for smaller tiles to pay.
         let shape = job.work.tile.unwrap_or(Schedule::TILE);
         let parts: Vec<_> = shape.cut(&region).collect();
         let order = render::order(&*renderer, job.work.policy, &parts, interrupt)?;
@@ -84,7 +84,7 @@ impl<'a> Leader<'a> {
             .first()
             .is_some_and(|part| buffer(part, intensities).is_none())
         {
-            let why = format!("tiles of {shape} are too large to be sent: choose smaller ones");
+            let why = format!("tiles of {shape} are too large for a message: choose smaller ones");
             return Err(failed(why));
         }
         let plan = Plan {
@@ -95,7 +95,7 @@ impl<'a> Leader<'a> {
         };
         broadcast(self.world, Some(&plan));
         self.state = State::Working;
-        // As with threads, what comes before the dealing is neither idle nor the picture's.
+        // As with threads, time before the first tile counts neither as idle nor as rendering.
         let dealing = Instant::now();
         let count = parts.len();
         progress.start(count);
@@ -147,7 +147,7 @@ impl<'a> Leader<'a> {
     }
 }
 
-/// Where tiles are handed out and taken back.
+/// Hands out tiles and receives results.
 struct Desk<'a> {
     world: &'a SimpleCommunicator,
     deal: Scheduler,
@@ -155,13 +155,12 @@ struct Desk<'a> {
     picture: &'a mut Picture,
     progress: &'a dyn Progress,
     messages: Messages,
-    /// What the other ranks did, once they have told.
+    /// The counts of the ranks that have finished.
     tallies: Vec<Option<Tally>>,
 }
 
 impl Desk<'_> {
-    /// Traces tiles, and answers the others between them, until all have done all there is. Returns what
-    /// was done here.
+    /// Traces tiles, and answers the other ranks between them, until all have finished. Returns what this rank did.
     fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Tally, Error> {
         let mut worker = renderer.worker();
         let mut busy = Duration::ZERO;
@@ -187,11 +186,11 @@ impl Desk<'_> {
         }
     }
 
-    /// Takes what a rank has done, and gives it something to do.
+    /// Receives a message of a rank and sends it the next tile.
     fn answer(&mut self, message: Message, status: Status) -> Result<(), Error> {
         let begin = Instant::now();
         let (rank, tag) = (status.source_rank(), status.tag());
-        let nonsense = || failed(format!("a message from rank {rank} makes no sense"));
+        let nonsense = || failed(format!("rank {rank} sent an invalid message"));
         let (bytes, _) = (message, status).matched_receive_vec::<u8>();
         if tag == TALLY {
             let tally = postcard::from_bytes(&bytes).map_err(|_| nonsense())?;
@@ -212,7 +211,7 @@ impl Desk<'_> {
         Ok(())
     }
 
-    /// A part of the picture to be filled.
+    /// Returns an empty buffer for a tile.
     fn part(&self, index: usize) -> TileBuffer {
         TileBuffer::black(
             self.parts[index].clone(),
@@ -220,7 +219,7 @@ impl Desk<'_> {
         )
     }
 
-    /// Puts a tile that was traced into the picture; `None` if it is none.
+    /// Copies a received tile into the picture; `None` if the message is invalid.
     fn keep(&mut self, bytes: &[u8]) -> Option<()> {
         let (index, pixels) = bytes.split_first_chunk()?;
         let index = u32::from_le_bytes(*index) as usize;

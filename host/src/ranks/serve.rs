@@ -1,4 +1,4 @@
-//! What every rank but the first does: trace what it is told to.
+//! The other ranks: each traces the tiles that the first rank assigns to it.
 
 use super::{
     IN_HAND, NONE, PACKET, Plan, REQUEST, RESULT, TALLY, Tally, arrived, buffer, failed, pause,
@@ -14,16 +14,16 @@ use octray_render::renderer::{self, Worker};
 use octray_render::tile::TileBuffer;
 use std::time::{Duration, Instant};
 
-/// Works for the first rank until there is nothing left.
+/// Works for the first rank until no tile is left.
 ///
 /// # Errors
-/// [`Error::Interrupted`] if it was, [`Error::Failed`] when there is no memory for the scene or messages make
-/// no sense.
+/// [`Error::Interrupted`] after an interrupt, [`Error::Failed`] if there is no memory for the scene or a message is
+/// invalid.
 pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<(), Error> {
     let world = universe.world();
     let bytes = super::receive_broadcast(&world);
     let plan: Option<Plan<'_>> = postcard::from_bytes(&bytes)
-        .map_err(|cause| failed(format!("the scene did not arrive whole: {cause}")))?;
+        .map_err(|cause| failed(format!("the scene arrived incomplete: {cause}")))?;
     let Some(plan) = plan else {
         return Ok(());
     };
@@ -31,7 +31,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
     let renderer = renderer::prepare(&plan.scene, &plan.settings)?;
     let region = renderer.built().region();
     let parts: Vec<_> = plan.shape.cut(&region).collect();
-    // The first rank has found out that there is such a buffer.
+    // The first rank has checked that this buffer is possible.
     let size = parts
         .first()
         .map_or(Some(0), |part| buffer(part, plan.intensities));
@@ -55,7 +55,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         let begin = Instant::now();
         let message = trace(&mut *worker, index, part, plan.intensities);
         busy += begin.elapsed();
-        // A plain send of more than some 256 bytes lasts until the first rank looks for messages.
+        // An unbuffered send of more than about 256 bytes blocks until the first rank looks for messages.
         leader.buffered_send_with_tag(&message[..], RESULT);
     }
     let tally = Tally::new(worker.counters(), worker.saturations(), busy);
@@ -64,7 +64,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
     Ok(())
 }
 
-/// The number of the next tile, or [`NONE`], as soon as it comes.
+/// Waits for the number of the next tile, or [`NONE`].
 fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
     loop {
         interrupt.check()?;
@@ -75,12 +75,12 @@ fn next(leader: &Process<'_>, interrupt: &Interrupt) -> Result<u32, Error> {
         let (bytes, status) = arrived.matched_receive_vec::<u8>();
         return match <[u8; 4]>::try_from(bytes) {
             Ok(bytes) if status.tag() == PACKET => Ok(u32::from_le_bytes(bytes)),
-            _ => Err(failed("a message makes no sense".into())),
+            _ => Err(failed("a message is invalid".into())),
         };
     }
 }
 
-/// A tile traced: its number, its levels and its intensities if they are wanted.
+/// Traces a tile. Returns the message: its number, its levels and, if requested, its intensities.
 fn trace(worker: &mut dyn Worker, index: u32, part: &Region, intensities: bool) -> Vec<u8> {
     let mut part = TileBuffer::black(part.clone(), intensities);
     worker.trace(part.tile());

@@ -19,7 +19,7 @@ use octray_lab::plan::record::{self, SEED, Sample};
 use octray_prepare::{Arith, FirmwareTree, RenderSettings};
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use std::error::Error;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -125,14 +125,14 @@ fn measure(
 ) -> Result<Report<Row>, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let generated = |objects: usize| -> Result<Vec<PathBuf>, Box<dyn Error>> {
-        let write = |kind: Kind| -> Result<PathBuf, Box<dyn Error>> {
+        let write = |kind: SceneKind| -> Result<PathBuf, Box<dyn Error>> {
             let name = format!("{}-{objects}.scene", kind.name());
             let path = folder.path().join(name);
             let scene = generate(Spec { kind, objects }, SEED);
             octray_scenes::write(&scene, &mut File::create(&path)?)?;
             Ok(path)
         };
-        Kind::ALL.into_iter().map(write).collect()
+        SceneKind::ALL.into_iter().map(write).collect()
     };
     let shipped = |names: &[&str]| -> Vec<PathBuf> {
         let path = |name: &&str| scenes.join(name).with_extension("scene");

@@ -13,7 +13,7 @@ use octray_render::cost::{self, EVENTS, NAMES, WEIGHTS};
 use octray_render::renderer::{self, Worker};
 use octray_render::tile::Tile;
 use octray_render::tile::{TileBuffer, TileSize};
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_scenes::model::Scene;
 use std::error::Error;
 use std::fs;
@@ -87,7 +87,7 @@ fn scenes() -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
         let path = folder.join(&name).with_extension("scene");
         scenes.push((name, octray_scenes::read(&path)?));
     }
-    for kind in Kind::ALL {
+    for kind in SceneKind::ALL {
         let objects = 1000;
         let scene = generate(Spec { kind, objects }, 1);
         scenes.push((format!("{}-{objects}", kind.name()), scene));

@@ -11,7 +11,7 @@ use octray_prepare::plan::{Plan, fingerprint};
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use octray_scenes::generate::{Kind, Spec, generate};
+use octray_scenes::generate::{SceneKind, Spec, generate};
 use octray_scenes::model::Scene;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -152,7 +152,9 @@ pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
         return comb(teeth);
     }
     let generated = name.split_once('-').and_then(|(kind, objects)| {
-        let kind = Kind::ALL.into_iter().find(|known| known.name() == kind)?;
+        let kind = SceneKind::ALL
+            .into_iter()
+            .find(|known| known.name() == kind)?;
         let objects = objects.parse().ok()?;
         Some(generate(Spec { kind, objects }, SEED))
     });

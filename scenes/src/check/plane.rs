@@ -1,24 +1,23 @@
-//! Whether vertices lie in one plane.
+//! Checks whether vertices lie in one plane.
 //!
-//! The plane goes through the first vertex *o*, the vertex *a* farthest from it and the vertex *b*
-//! farthest from the line *oa*. Every vertex is then *o* + α(*a* − *o*) + β(*b* − *o*) with
-//! |β| ≤ 1 and |α| ≤ 2, so however thin the polygon, vertices that are each off a common plane by
-//! δ are off this one by no more than δ(1 + |1 − α − β| + |α| + |β|) ≤ 8δ. The sum over the edges
-//! (Newell's normal) would not do: it is 0 for a symmetric bow tie, which is allowed.
+//! The plane goes through the first vertex *o*, the vertex *a* farthest from it and the vertex *b* farthest from the
+//! line *oa*. Every vertex is *o* + α(*a* − *o*) + β(*b* − *o*) with |β| ≤ 1 and |α| ≤ 2. However thin the polygon, if
+//! each vertex is off a common plane by at most δ, it is off this plane by at most δ(1 + |1 − α − β| + |α| + |β|) ≤ 8δ.
+//! The sum over the edges (Newell's normal) does not work: it is 0 for a symmetric bow tie, which is allowed.
 //!
-//! Files often hold six significant digits, which moves a coordinate by up to 5e-6 of its value
-//! and a vertex off the plane by up to √3 times that; 8δ is then 7e-5 of the largest coordinate.
-//! So the tolerance is **1e-4 of the largest absolute coordinate, but no less than 1e-4 and no more
-//! than 1e-2 of the polygon's size**, the size being the distance from *o* to *a*.
+//! Files often hold six significant digits. This rounding moves a coordinate by up to 5e-6 of its value and a vertex
+//! off the plane by up to √3 times that; 8δ is then 7e-5 of the largest coordinate. Therefore the tolerance is **1e-4
+//! of the largest absolute coordinate, but no less than 1e-4 and no more than 1e-2 of the polygon's size**, where the
+//! size is the distance from *o* to *a*.
 
 use super::Fault;
 use crate::model::Point;
 
-/// A polygon is a line if its height over its longest side is no more than this of that side.
+/// A polygon counts as a line if its height is at most this fraction of its longest side.
 const THINNEST: f64 = 1e-9;
 
-/// Checks three or more finite vertices: none repeated in a row, not all on a line, all in a plane.
-/// No coordinate is too large or too small for it.
+/// Checks three or more finite vertices: none repeated in a row, not all on a line, all in a plane. Works for
+/// coordinates of any magnitude.
 pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
     let before = vertices.iter().cycle().skip(vertices.len() - 1);
     if let Some(vertex) = vertices.iter().zip(before).position(|(a, b)| a == b) {
@@ -33,7 +32,7 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
     if unit < f64::MIN_POSITIVE {
         return Err(Fault::Collinear);
     }
-    // From here on in halves of `unit`, so that squares stay in range.
+    // From here on, lengths are divided by 2 · `unit`, so that squares stay in range.
     let scale = 1.0 / unit;
     let offset = |vertex: &Point| half_difference(vertex, &vertices[0]).map(|d| d * scale);
     let coordinate = largest(vertices.iter().copied()) * 0.5 * scale;
@@ -69,7 +68,7 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Half of `a − b`, which cannot overflow.
+/// Returns half of `a − b`, which cannot overflow.
 pub(super) fn half_difference(a: &Point, b: &Point) -> Point {
     [
         a[0] * 0.5 - b[0] * 0.5,
@@ -78,7 +77,7 @@ pub(super) fn half_difference(a: &Point, b: &Point) -> Point {
     ]
 }
 
-/// The direction of `vector` with length 1; `None` if it is zero.
+/// Returns `vector` scaled to length 1, or `None` if it is zero.
 pub(super) fn unit(vector: Point) -> Option<Point> {
     let largest = vector
         .iter()
@@ -106,14 +105,14 @@ fn dot(a: &Point, b: &Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The largest absolute coordinate of `points`.
+/// Returns the largest absolute coordinate of `points`.
 fn largest(points: impl Iterator<Item = Point>) -> f64 {
     points
         .flatten()
         .fold(0.0, |largest, number| largest.max(number.abs()))
 }
 
-/// The longest of `vectors`, the first of several; zero if there is none.
+/// Returns the longest of `vectors`, the first if several are equal, or zero if there are none.
 fn farthest(vectors: impl Iterator<Item = Point>) -> Point {
     vectors.fold([0.0; 3], |longest, vector| {
         if dot(&vector, &vector) > dot(&longest, &longest) {
@@ -144,7 +143,7 @@ mod tests {
     fn bow_ties_and_bridged_holes_are_polygons() {
         let [a, b, c, d] = SQUARE;
         assert_eq!(polygon(&[a, c, b, d]), Ok(()));
-        // A hole, joined by an edge that is walked twice.
+        // A hole, joined by an edge that is traversed twice.
         let hole = [
             [0.2, 0.2, 0.0],
             [0.4, 0.6, 0.0],
@@ -212,8 +211,8 @@ mod tests {
     }
 
     proptest! {
-        /// The promise of this module's documentation, also for polygons ten times as far away as
-        /// they are large, and for slivers.
+        /// The claim of this module's documentation, also for polygons ten times as far away as they are large, and for
+        /// slivers.
         #[test]
         fn six_digits_are_enough(
             frame in prop::array::uniform3(prop::array::uniform3(-1.0..1.0)),

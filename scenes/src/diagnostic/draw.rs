@@ -1,7 +1,7 @@
-//! Drawing mistakes beside the lines they are on.
+//! Draws mistakes beside their lines.
 
-use super::{Diagnostic, Diagnostics, Kind, MOST, words};
-use crate::parse::Span;
+use super::{Diagnostic, Diagnostics, MOST, MistakeKind, words};
+use crate::word::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// How many characters of a line are shown before, inside and after a span.
@@ -33,7 +33,7 @@ fn group(mistake: &Diagnostic, path: &str, source: &str) -> Group<'static> {
         .primary_title(title)
         .element(excerpt.snippet(AnnotationKind::Primary, label));
     match &mistake.kind {
-        Kind::Duplicate { first, .. } => {
+        MistakeKind::Duplicate { first, .. } => {
             let label = "the first one".to_owned();
             group.element(Excerpt::new(source, *first).snippet(AnnotationKind::Context, label))
         }
@@ -83,7 +83,7 @@ impl Excerpt {
     }
 }
 
-/// The first `most` characters of `text`, escaped, and a sign if there were more.
+/// Returns the first `most` characters of `text`, escaped, and an ellipsis if there were more.
 fn shortened(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}...", escaped(&text[..end])),
@@ -91,8 +91,8 @@ fn shortened(text: &str, most: usize) -> String {
     }
 }
 
-/// `text` without white space other than blanks, and with control characters, and those that
-/// change the order of text, as Rust escapes them.
+/// Returns `text` without white space other than blanks. Control characters and those that change the order of text are
+/// escaped as in Rust.
 fn escaped(text: &str) -> String {
     let hostile = |c: char| {
         c.is_control()

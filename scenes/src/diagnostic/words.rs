@@ -1,42 +1,42 @@
-//! The words of an error message: a title, and a label for the place.
+//! The texts of error messages: a title, and a label for the place.
 
-use super::Kind;
+use super::MistakeKind;
 use crate::check::Fault;
-use crate::parse::Keyword;
+use crate::word::Keyword;
 
 const KEYWORDS: &str =
     "expected one of `v at up angle view resolution b l f s c box p pp`, in lower case";
 
-/// Title and label of `kind`; `found` is what stands at its place, fit for printing.
-pub(super) fn describe(kind: &Kind, found: &str) -> (String, String) {
+/// Returns title and label of `kind`; `found` is the text at its place, escaped for printing.
+pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
     let owned = |title: &str, label: &str| (title.to_owned(), label.to_owned());
     match kind {
-        Kind::Empty => owned(
+        MistakeKind::Empty => owned(
             "the file holds no scene",
             "expected at least a viewpoint: `v x y z`",
         ),
-        Kind::Binary => (
+        MistakeKind::Binary => (
             "not a text file".to_owned(),
             format!("found control characters in `{found}`, expected a scene file"),
         ),
-        Kind::UnknownKeyword => (format!("unknown keyword `{found}`"), KEYWORDS.to_owned()),
-        Kind::StrayNumber => (
+        MistakeKind::UnknownKeyword => (format!("unknown keyword `{found}`"), KEYWORDS.to_owned()),
+        MistakeKind::StrayNumber => (
             format!("`{found}` where a keyword must be"),
             KEYWORDS.to_owned(),
         ),
-        Kind::NotANumber => (
+        MistakeKind::NotANumber => (
             format!("`{found}` is not a number"),
             "expected a number or a keyword".to_owned(),
         ),
-        Kind::NotFinite => (
+        MistakeKind::NotFinite => (
             format!("`{found}` is not finite"),
             "expected a number of at most 1.797e308 in size".to_owned(),
         ),
-        Kind::Count { keyword, found } => (
+        MistakeKind::Count { keyword, found } => (
             format!("`{}` with {}", keyword.text(), numbers(*found)),
             format!("expected {}", keyword.wants()),
         ),
-        Kind::VertexCount {
+        MistakeKind::VertexCount {
             keyword,
             vertices,
             found,
@@ -55,27 +55,27 @@ pub(super) fn describe(kind: &Kind, found: &str) -> (String, String) {
                 format!("expected {wanted}: {what} of {vertices} vertices"),
             )
         }
-        Kind::NotACount => (
+        MistakeKind::NotACount => (
             format!("`{found}` is not a number of vertices"),
             format!("expected a whole number from 3 to {}", u32::MAX),
         ),
-        Kind::View => (
+        MistakeKind::View => (
             "unknown view".to_owned(),
             format!("expected {}, found `{found}`", Keyword::View.wants()),
         ),
-        Kind::NoSurface => owned(
+        MistakeKind::NoSurface => owned(
             "object before the first surface",
             "expected an `f` with the surface of this object before it",
         ),
-        Kind::Duplicate { keyword, .. } => (
+        MistakeKind::Duplicate { keyword, .. } => (
             format!("a second `{}`", keyword.text()),
             "expected only one in a file".to_owned(),
         ),
-        Kind::NoViewpoint => owned(
+        MistakeKind::NoViewpoint => owned(
             "no viewpoint",
             "the file ends here; expected `v x y z` somewhere in it",
         ),
-        Kind::Incomplete { missing } => {
+        MistakeKind::Incomplete { missing } => {
             let missing: Vec<_> = missing
                 .iter()
                 .map(|keyword| format!("`{}`", keyword.text()))
@@ -86,15 +86,15 @@ pub(super) fn describe(kind: &Kind, found: &str) -> (String, String) {
                     .to_owned(),
             )
         }
-        Kind::TwoEyes => owned(
+        MistakeKind::TwoEyes => owned(
             "`from` beside a `v` that has a position",
             "expected the position either after `v` or after `from`",
         ),
-        Kind::Fault(fault) => (fault.to_string(), expected(fault, found)),
+        MistakeKind::Fault(fault) => (fault.to_string(), expected(fault, found)),
     }
 }
 
-/// What would have been right instead of `fault`.
+/// Returns a label that states what was expected instead of `fault`.
 fn expected(fault: &Fault, found: &str) -> String {
     let wanted = match fault {
         Fault::NotFinite => "values whose products are finite",
@@ -147,7 +147,7 @@ fn numbers(count: usize) -> String {
     }
 }
 
-/// Three significant digits, the shorter of plain and scientific.
+/// Rounds to three significant digits, in the shorter of plain and scientific notation.
 fn rounded(number: f64) -> String {
     let digits = format!("{number:.2e}");
     match digits.parse::<f64>() {

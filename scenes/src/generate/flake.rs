@@ -7,7 +7,7 @@ use crate::model::Point;
 struct Ball {
     centre: Point,
     radius: f64,
-    /// Away from the sphere that carries it.
+    /// The direction away from the sphere that carries this one.
     axis: Point,
 }
 
@@ -24,7 +24,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     let mut colour = random.below(PALETTE.len());
     while !generation.is_empty() {
         let surface = stage.surface(glossy(PALETTE[colour], 0.3));
-        colour = (colour + 3) % PALETTE.len(); // 3 and 8 have no common divisor: all come up.
+        colour = (colour + 3) % PALETTE.len(); // 3 and 8 are coprime: every colour is used.
         for ball in &generation {
             stage.sphere(surface, ball.centre, ball.radius);
         }
@@ -46,8 +46,8 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     stage.ground(ground, -0.5, 6.0);
 }
 
-/// Where a sphere with its carrier below (−z) carries others: the corners of a cuboctahedron that
-/// lie on the equator and above. Three above come first.
+/// Returns where a sphere with its carrier below (−z) carries others: the corners of a cuboctahedron on the equator and
+/// above. Three corners above it come first.
 fn slots() -> [Point; 9] {
     let x = unit([1.0, -1.0, 0.0]);
     let y = unit([1.0, 1.0, -2.0]);

@@ -13,7 +13,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
         .collect();
     balls.push(stage.surface(glass()));
 
-    // As many layers as the objects fill, in a cube from -1 to 1, turned a little.
+    // The layers that the objects fill, in a cube from -1 to 1, slightly rotated.
     let layers = layers(objects);
     let spacing = 2.0 / layers as f64;
     let [cos, sin] = circle(random.between(0.02, 0.08));
@@ -43,15 +43,15 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     stage.ground(ground, -1.05, 10.0);
 }
 
-/// The least n for which the n³ spheres and 3n²(n − 1) rods of a cube are enough.
+/// Returns the least n for which the n³ spheres and 3n²(n − 1) rods of a cube are enough.
 fn layers(objects: usize) -> usize {
     (1..)
         .find(|&n: &usize| n * n * n + 3 * n * n * (n - 1) >= objects)
         .unwrap_or(1)
 }
 
-/// The nodes whose largest coordinate is `layer`; each neighbour nearer to the origin is in an
-/// earlier shell or earlier in this one.
+/// Returns the nodes whose largest coordinate is `layer`. Each neighbour nearer to the origin is in an earlier shell or
+/// earlier in this one.
 fn shell(layer: usize) -> impl Iterator<Item = [usize; 3]> {
     (0..=layer).flat_map(move |x| {
         (0..=layer).flat_map(move |y| {

@@ -1,4 +1,4 @@
-//! Portable randomness and directions: no function whose last digit depends on the machine.
+//! Portable random numbers and directions: no function's last digit depends on the machine.
 
 use crate::model::Point;
 use rand_pcg::Pcg64Mcg;
@@ -12,19 +12,19 @@ impl Random {
         Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
-    /// Evenly from `low` to below `high`.
+    /// Returns a number evenly distributed from `low` to below `high`.
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
-        // 53 bits are all an `f64` in [0, 1) can hold.
+        // An `f64` in [0, 1) holds at most 53 random bits.
         let fraction = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         low + (high - low) * fraction
     }
 
-    /// Evenly from 0 to `count` − 1.
+    /// Returns an integer evenly distributed from 0 to `count` − 1.
     pub(super) fn below(&mut self, count: usize) -> usize {
         (self.between(0.0, count as f64) as usize).min(count - 1)
     }
 
-    /// A unit vector, every direction as likely.
+    /// Returns a unit vector; every direction is equally likely.
     pub(super) fn direction(&mut self) -> Point {
         loop {
             let point = [(); 3].map(|()| self.between(-1.0, 1.0));
@@ -36,8 +36,8 @@ impl Random {
     }
 }
 
-/// A unit vector in the plane after `turn` of a full turn. Rational, so not quite even within a
-/// quarter.
+/// Returns the unit vector in the plane after `turn` of a full turn. The formula is rational, so directions are not
+/// quite even within a quarter.
 pub(super) fn circle(turn: f64) -> [f64; 2] {
     let quarters = (turn - turn.floor()) * 4.0;
     let t = quarters.fract();
@@ -50,7 +50,7 @@ pub(super) fn circle(turn: f64) -> [f64; 2] {
     }
 }
 
-/// Two unit vectors that form a right-handed frame with the unit vector `axis`.
+/// Returns two unit vectors that form a right-handed frame with the unit vector `axis`.
 pub(super) fn across(axis: Point) -> [Point; 2] {
     let helper = if axis[0].abs() < 0.6 {
         [1.0, 0.0, 0.0]
@@ -61,7 +61,7 @@ pub(super) fn across(axis: Point) -> [Point; 2] {
     [u, cross(axis, u)]
 }
 
-/// `axis`·z plus the point (x, y) of the plane across it, after `turn`.
+/// Returns `axis`·z plus the point (x, y) of the plane across it, after `turn`.
 pub(super) fn around(axis: Point, turn: f64, [x, y, z]: Point) -> Point {
     let [u, v] = across(axis);
     let [cos, sin] = circle(turn);
@@ -122,7 +122,7 @@ mod tests {
         }
     }
 
-    /// The stream is part of what a seed means: a new generator would change every scene.
+    /// A seed's meaning includes the stream: a new generator would change every scene.
     #[test]
     fn the_stream_is_fixed() {
         let mut random = Random::new(1989);

@@ -1,4 +1,4 @@
-//! A bit of everything.
+//! A soup of all shapes.
 
 use super::random::{Random, across, circle, scale, sum};
 use super::stage::{PALETTE, Stage, glass, glossy, matt};
@@ -13,14 +13,14 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     surfaces.extend(PALETTE.map(|colour| stage.surface(glossy(colour, 0.3))));
     surfaces.push(stage.surface(glass()));
 
-    // About as large as the space each has for itself.
+    // Each object is about as large as the space that is available to it.
     let cells = (1..).find(|&n: &usize| n * n * n >= objects).unwrap_or(1);
     let space = 1.0 / cells as f64;
     for index in 0..objects {
         let surface = surfaces[random.below(surfaces.len())];
         let centre = [(); 3].map(|()| random.between(-1.0, 1.0));
         let size = space * random.between(0.4, 1.0);
-        // Each in turn, so that even a spoonful has some of all.
+        // The shapes take turns, so that even a few objects contain all of them.
         match index % 7 {
             0 => stage.sphere(surface, centre, size * 0.7),
             1 => cone(stage, surface, centre, size, 0.5, &mut random),
@@ -80,7 +80,7 @@ fn cone(stage: &mut Stage, surface: u32, centre: Point, size: f64, top: f64, ran
     );
 }
 
-/// `corners` points on the unit circle, in order, none near another.
+/// Returns `corners` points on the unit circle, in order, no two of them close to each other.
 fn ring(corners: usize, random: &mut Random) -> impl Iterator<Item = [f64; 2]> {
     let start = random.between(0.0, 1.0);
     (0..corners).map(move |corner| {

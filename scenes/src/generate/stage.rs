@@ -1,4 +1,4 @@
-//! A scene while it is generated.
+//! A scene under construction.
 
 use super::random::{dot, scale, sum, unit};
 use crate::model::{Camera, Colour, Light, Object, Point, Projection, Scene, Shape, Surface};
@@ -10,7 +10,7 @@ pub(super) struct Stage {
     objects: Vec<Object>,
     vertices: Vec<Point>,
     normals: Vec<Point>,
-    /// Corners of the box around all points but those of grounds.
+    /// Corners of the box around all points except those of grounds.
     bounds: Option<[Point; 2]>,
 }
 
@@ -71,7 +71,7 @@ impl Stage {
         self.objects.push(Object { shape, surface });
     }
 
-    /// A square at height `z` that reaches `half` to each side. The camera does not care for it.
+    /// Adds a square at height `z` that extends `half` to each side. The camera need not see all of it.
     pub(super) fn ground(&mut self, surface: u32, z: f64, half: f64) {
         let corners = [
             [-half, -half, z],
@@ -82,7 +82,7 @@ impl Stage {
         self.unseen_polygon(surface, &corners);
     }
 
-    /// The scene, seen from the direction (0.52, −0.74, 0.42), under the lights of an afternoon.
+    /// Returns the scene, seen from the direction (0.52, −0.74, 0.42), in afternoon light.
     pub(super) fn finish(self) -> Scene {
         let [low, high] = self.bounds.unwrap_or([[-1.0; 3], [1.0; 3]]);
         let centre = scale(sum(low, high), 0.5);
@@ -116,7 +116,7 @@ impl Stage {
             vertices: Vec::with_capacity(self.vertices.len()),
             normals: Vec::with_capacity(self.normals.len()),
         };
-        // In a file an object's surface is the last one before it.
+        // In a file, an object's surface is the last one before it.
         scene.objects.sort_by_key(|object| object.surface);
         for object in &mut scene.objects {
             let (vertices, normals) = (&mut scene.vertices, &mut scene.normals);
@@ -155,7 +155,7 @@ impl Stage {
     }
 }
 
-/// A surface that scatters light.
+/// Returns a surface that scatters light.
 pub(super) fn matt(colour: Colour) -> Surface {
     Surface {
         ambient: scale(colour, 0.12),
@@ -164,7 +164,7 @@ pub(super) fn matt(colour: Colour) -> Surface {
     }
 }
 
-/// A matt surface with a highlight that mirrors the share `reflect`.
+/// Returns a matt surface with a highlight, which mirrors the share `reflect`.
 pub(super) fn glossy(colour: Colour, reflect: f64) -> Surface {
     Surface {
         ambient: scale(colour, 0.1),
@@ -176,7 +176,7 @@ pub(super) fn glossy(colour: Colour, reflect: f64) -> Surface {
     }
 }
 
-/// Glass.
+/// Returns glass.
 pub(super) fn glass() -> Surface {
     Surface {
         specular: [0.6; 3],
@@ -188,7 +188,7 @@ pub(super) fn glass() -> Surface {
     }
 }
 
-/// Colours that go together: brick, ochre, sand, leaf, sea, sky, plum and chalk.
+/// A palette: brick, ochre, sand, leaf, sea, sky, plum and chalk.
 pub(super) const PALETTE: [Colour; 8] = [
     [0.78, 0.27, 0.2],
     [0.9, 0.6, 0.15],
@@ -200,7 +200,7 @@ pub(super) const PALETTE: [Colour; 8] = [
     [0.9, 0.9, 0.87],
 ];
 
-/// The `f64` nearest to `number` in six significant digits; 0 below 1e-16.
+/// Rounds to the `f64` nearest to `number` in six significant digits; to 0 below 1e-16.
 fn round(number: f64) -> f64 {
     let size = number.abs();
     let mut shift = 1.0;
@@ -210,7 +210,7 @@ fn round(number: f64) -> f64 {
     while size * shift < 1e5 {
         shift *= 10.0; // Powers of ten are exact up to 1e22.
     }
-    // Both are whole, so that their quotient is the decimal's nearest `f64`.
+    // Both are integers, so their quotient is the `f64` nearest to the decimal number.
     (number * shift).round() / shift
 }
 
@@ -218,7 +218,7 @@ fn rounded(point: Point) -> Point {
     point.map(round)
 }
 
-/// Moves `count` points of `from` at `first` to the end of `to`.
+/// Copies `count` points of `from`, starting at `first`, to the end of `to`, and updates `first`.
 fn move_to(to: &mut Vec<Point>, from: &[Point], first: &mut u32, count: u32) {
     let old = *first as usize;
     *first = to.len() as u32;

@@ -22,7 +22,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     let corner = |row: usize, column: usize| -> Point {
         let x = column as f64 / columns as f64 * 2.0 - 1.0;
         let y = row as f64 / rows as f64 * 2.0 - 1.0;
-        // From 0 to 1, and flatter towards the shore all round.
+        // From 0 to 1, flatter towards the shore on all sides.
         let height = (heights.at(row, column) - low) / (high - low);
         [x, y, 0.9 * height * (1.0 - x * x) * (1.0 - y * y) - 0.06]
     };
@@ -47,14 +47,14 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
 
 /// A square of heights.
 struct Heights {
-    /// A power of two, and one less than the points along a side.
+    /// A power of two: one less than the number of points along a side.
     side: usize,
     heights: Vec<f64>,
 }
 
 impl Heights {
-    /// The heights of a square of at least `cells` × `cells` cells, by the diamond-square
-    /// algorithm (Fournier, Fussell and Carpenter 1982; Miller 1986).
+    /// Computes the heights of a square of at least `cells` × `cells` cells with the diamond-square algorithm
+    /// (Fournier, Fussell and Carpenter 1982; Miller 1986).
     fn new(cells: usize, random: &mut Random) -> Self {
         let side = cells.next_power_of_two();
         let mut this = Self {
@@ -100,7 +100,7 @@ impl Heights {
         self.heights[row * (self.side + 1) + column]
     }
 
-    /// The lowest and the highest point of the first cells, which differ.
+    /// Returns the lowest and the highest point of the first cells; they differ.
     fn range(&self, rows: usize, columns: usize) -> (f64, f64) {
         let points = (0..=rows).flat_map(|row| (0..=columns).map(move |column| (row, column)));
         let heights = points.map(|(row, column)| self.at(row, column));
@@ -114,7 +114,7 @@ impl Heights {
         self.heights[row * (self.side + 1) + column] = height;
     }
 
-    /// The mean of those four points `reach` away that are on the map.
+    /// Returns the mean of those of the four points at distance `reach` that are on the map.
     fn mean(&self, row: usize, column: usize, reach: usize, towards: [(isize, isize); 4]) -> f64 {
         let along = |from: usize, sign: isize| {
             from.checked_add_signed(sign * reach as isize)

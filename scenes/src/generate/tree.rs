@@ -1,21 +1,21 @@
-//! The branching tree.
+//! A tree with branches.
 
 use super::random::{Random, around, scale, sum, unit};
 use super::stage::{PALETTE, Stage, glossy, matt};
 use crate::model::Point;
 
-/// How many branches a branch bears.
+/// Number of branches on each branch.
 const FORKS: usize = 3;
 
 struct Branch {
     base: Point,
     direction: Point,
     length: f64,
-    /// At the base; at the tip it is [`TAPER`] times that.
+    /// Radius at the base; at the tip it is [`TAPER`] times that.
     radius: f64,
 }
 
-/// How much thinner a branch gets from its base to its tip.
+/// Ratio of a branch's radii at its tip and its base.
 const TAPER: f64 = 0.62;
 
 impl Branch {

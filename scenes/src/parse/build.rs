@@ -1,29 +1,29 @@
-//! From entities to the scene.
+//! Builds the scene from entities.
 
 use super::entity::Entity;
 use super::header::Header;
-use super::token::{Keyword, Span};
 use crate::check::{self, Fault};
-use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::{Light, Object, Point, Scene, Shape, Surface};
+use crate::word::{Keyword, Span};
 
-/// A scene that grows entity by entity.
+/// A scene under construction.
 #[derive(Debug, Default)]
 pub(super) struct Builder {
     header: Header,
     lights: Vec<Light>,
-    /// Lights without a colour: theirs depends on how many lights there are in the end.
+    /// Lights without a colour; theirs depends on the total number of lights.
     colourless: Vec<usize>,
     surfaces: Vec<Surface>,
     objects: Vec<Object>,
     vertices: Vec<Point>,
     normals: Vec<Point>,
-    /// Whether there was any entity at all.
+    /// Whether there was any entity.
     begun: bool,
 }
 
 impl Builder {
-    /// Adds `entity` with its `numbers` to the scene, or says what is wrong with it.
+    /// Adds `entity` with its `numbers` to the scene, or reports what is wrong with it.
     pub(super) fn add(&mut self, entity: &Entity<'_>, numbers: &[f64], mistakes: &mut Sink) {
         self.begun = true;
         self.header.pass(entity.keyword);
@@ -32,24 +32,24 @@ impl Builder {
             Keyword::Sphere | Keyword::Cone | Keyword::Cuboid | Keyword::Polygon | Keyword::Patch
         );
         if is_object && self.surfaces.is_empty() {
-            mistakes.push(Kind::NoSurface, entity.span);
-            self.surfaces.push(Surface::default()); // Once is enough.
+            mistakes.push(MistakeKind::NoSurface, entity.span);
+            self.surfaces.push(Surface::default()); // Report it once.
         }
-        if entity.sound {
+        if entity.valid {
             match self.place(entity, numbers) {
                 Ok(()) => return,
                 Err(Diagnostic { kind, span }) => mistakes.push(kind, span),
             }
         }
-        // What was wrong once shall not be reported as missing too.
+        // What is wrong shall not be reported as missing too.
         match entity.keyword {
             Keyword::Surface => self.surfaces.push(Surface::default()),
-            keyword => self.header.spoil(keyword, entity.span),
+            keyword => self.header.mark_invalid(keyword, entity.span),
         }
     }
 
-    /// The scene. What is missing or does not fit together is put in `mistakes`; if there is any
-    /// mistake, the scene means nothing.
+    /// Returns the scene. Missing or contradictory parts are reported in `mistakes`; after any mistake the scene is
+    /// meaningless.
     pub(super) fn finish(mut self, source: &str, mistakes: &mut Sink) -> Scene {
         let brightness = 1.0 / (self.lights.len() as f64).sqrt();
         for index in self.colourless {
@@ -58,7 +58,7 @@ impl Builder {
         let end = source.trim_end().len();
         let end = Span { start: end, end };
         if !self.begun && mistakes.is_empty() {
-            mistakes.push(Kind::Empty, end);
+            mistakes.push(MistakeKind::Empty, end);
         }
         let mut scene = self.header.finish(end, mistakes);
         scene.lights = self.lights;
@@ -144,7 +144,7 @@ impl Builder {
         };
         let coefficients = ior.map_or(numbers.len(), |(index, _)| index);
         entity.not_negative(0, &numbers[..coefficients])?;
-        // An opaque surface has no inside; files say 0 or anything else there.
+        // An opaque surface has no inside; files hold 0 or anything else there.
         if let Some((index, ior)) = ior.filter(|_| surface.refract > 0.0) {
             surface.ior = ior;
             check::surface(&surface).map_err(|fault| entity.fault(index..index + 1, fault))?;
@@ -221,7 +221,7 @@ fn cuboid(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
     Ok(Shape::Cuboid { centre, size })
 }
 
-/// Splits a polygon's numbers into the count of vertices and `each` numbers per vertex.
+/// Splits a polygon's numbers into the number of vertices and `each` numbers per vertex.
 fn announced<'n>(
     entity: &Entity<'_>,
     numbers: &'n [f64],
@@ -229,7 +229,7 @@ fn announced<'n>(
 ) -> Result<(u32, &'n [f64]), Diagnostic> {
     let (&count, coordinates) = numbers.split_first().ok_or_else(|| entity.count(numbers))?;
     if count.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&count) {
-        return Err(entity.mistake(0..1, Kind::NotACount));
+        return Err(entity.mistake(0..1, MistakeKind::NotACount));
     }
     let count = count as u32;
     if count < 3 {
@@ -243,7 +243,7 @@ fn announced<'n>(
         } else {
             0..1
         };
-        let kind = Kind::VertexCount {
+        let kind = MistakeKind::VertexCount {
             keyword: entity.keyword,
             vertices: count,
             found,
@@ -253,7 +253,7 @@ fn announced<'n>(
     Ok((count, coordinates))
 }
 
-/// Blames the vertex or normal that `fault` names, of `each` numbers per vertex.
+/// Reports `fault` at the vertex or normal that it names, of `each` numbers per vertex.
 fn vertex_fault(entity: &Entity<'_>, each: usize, fault: Fault) -> Diagnostic {
     let blamed = match fault {
         Fault::RepeatedVertex { vertex } | Fault::NotPlanar { vertex, .. } => {

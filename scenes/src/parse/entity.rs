@@ -1,27 +1,27 @@
-//! Entities: a keyword and all that follows it up to the next keyword.
+//! Entities: a keyword and everything after it up to the next keyword.
 
-use super::token::{Keyword, Lexeme, Lexer, Span, Token};
+use super::token::{Lexeme, Lexer, Token};
 use crate::check::Fault;
-use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::Projection;
+use crate::word::{Keyword, Span};
 use std::ops::Range;
 
-/// A keyword with what follows it.
+/// A keyword and what follows it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entity<'s> {
     pub(crate) keyword: Keyword,
-    /// Where the keyword stands.
+    /// The place of the keyword.
     pub(crate) span: Span,
     /// The word after `view`.
     pub(crate) word: Option<Token<'s>>,
-    /// Whether every number could be read. If not, the mistake has been reported and the numbers
-    /// mean nothing.
-    pub(crate) sound: bool,
+    /// Whether every number could be read. If not, the mistake has been reported and the numbers are meaningless.
+    pub(crate) valid: bool,
     source: &'s str,
 }
 
 impl Entity<'_> {
-    /// Its numbers, if there are as many as wanted.
+    /// Returns the numbers if there are exactly `N`.
     pub(crate) fn exactly<const N: usize>(&self, numbers: &[f64]) -> Result<[f64; N], Diagnostic> {
         numbers.try_into().map_err(|_| {
             let blamed = if numbers.len() > N {
@@ -36,7 +36,7 @@ impl Entity<'_> {
         })
     }
 
-    /// Checks that none of `numbers` is negative, the first of which is the entity's `first`.
+    /// Checks that none of `numbers` is negative; the first of them is the entity's number `first`.
     pub(crate) fn not_negative(&self, first: usize, numbers: &[f64]) -> Result<(), Diagnostic> {
         match numbers.iter().position(|&number| number < 0.0) {
             Some(index) => Err(self.fault(first + index..first + index + 1, Fault::Negative)),
@@ -44,7 +44,7 @@ impl Entity<'_> {
         }
     }
 
-    /// The projection that `view` names.
+    /// Returns the projection that `view` names.
     pub(crate) fn projection(&self, numbers: &[f64]) -> Result<Projection, Diagnostic> {
         let [] = self.exactly(numbers)?;
         match self.word.map(|word| word.text) {
@@ -53,39 +53,39 @@ impl Entity<'_> {
             _ => {
                 let span = self.word.map_or(self.span, |word| word.span());
                 Err(Diagnostic {
-                    kind: Kind::View,
+                    kind: MistakeKind::View,
                     span,
                 })
             }
         }
     }
 
-    /// A wrong count of `numbers`, blamed on the keyword.
+    /// Returns a mistake at the keyword: the wrong count of `numbers`.
     pub(crate) fn count(&self, numbers: &[f64]) -> Diagnostic {
         self.mistake(
             0..0,
-            Kind::Count {
+            MistakeKind::Count {
                 keyword: self.keyword,
                 found: numbers.len(),
             },
         )
     }
 
-    /// A wrong value, blamed on the numbers of `blamed`.
+    /// Returns a mistake at the numbers `blamed`: a wrong value.
     pub(crate) fn fault(&self, blamed: Range<usize>, fault: Fault) -> Diagnostic {
-        self.mistake(blamed, Kind::Fault(fault))
+        self.mistake(blamed, MistakeKind::Fault(fault))
     }
 
-    /// A mistake, blamed on the numbers of `blamed`, or on the keyword if that is empty.
-    pub(crate) fn mistake(&self, blamed: Range<usize>, kind: Kind) -> Diagnostic {
+    /// Returns a mistake at the numbers `blamed`, or at the keyword if that range is empty.
+    pub(crate) fn mistake(&self, blamed: Range<usize>, kind: MistakeKind) -> Diagnostic {
         Diagnostic {
             kind,
             span: self.span_of(blamed),
         }
     }
 
-    /// Where the numbers of `range` stand, or those of them on the line of the first; of an empty
-    /// range, where the keyword stands. Found by reading the entity again: few ask.
+    /// Returns the place of the numbers in `range`, as far as they are on the line of the first; for an empty range,
+    /// the place of the keyword. Reads the entity again, which only mistakes need.
     pub(crate) fn span_of(&self, range: Range<usize>) -> Span {
         let words = usize::from(self.word.is_some());
         let numbers = Lexer::new(self.source, self.span.end)
@@ -107,7 +107,7 @@ impl Entity<'_> {
     }
 }
 
-/// Reads entities one after the other, reports what fits nowhere and goes on at the next keyword.
+/// Reads entities one after the other, reports what belongs to none, and resumes at the next keyword.
 #[derive(Debug)]
 pub(crate) struct Entities<'s> {
     source: &'s str,
@@ -126,7 +126,7 @@ impl<'s> Entities<'s> {
         entities
     }
 
-    /// The next entity, its numbers in `numbers`; `None` at the end of the source.
+    /// Returns the next entity and stores its numbers in `numbers`; `None` at the end of the source.
     pub(crate) fn next(
         &mut self,
         numbers: &mut Vec<f64>,
@@ -138,17 +138,17 @@ impl<'s> Entities<'s> {
         } else {
             None
         };
-        let sound = self.numbers(numbers, mistakes);
+        let valid = self.numbers(numbers, mistakes);
         Some(Entity {
             keyword,
             span,
             word,
-            sound,
+            valid,
             source: self.source,
         })
     }
 
-    /// Reads over all that is no keyword; one report for each line that begins with a stranger.
+    /// Skips to the next keyword and reports one mistake per line that begins with anything else.
     fn seek(&mut self, mistakes: &mut Sink) -> Option<(Keyword, Span)> {
         let mut reported = false;
         loop {
@@ -158,11 +158,11 @@ impl<'s> Entities<'s> {
                     self.advance();
                     return Some((keyword, token.span()));
                 }
-                Lexeme::Binary => Kind::Binary,
-                Lexeme::Word => Kind::UnknownKeyword,
-                _ => Kind::StrayNumber,
+                Lexeme::Binary => MistakeKind::Binary,
+                Lexeme::Word => MistakeKind::UnknownKeyword,
+                _ => MistakeKind::StrayNumber,
             };
-            if !reported || (token.opens_line && kind == Kind::UnknownKeyword) {
+            if !reported || (token.opens_line && kind == MistakeKind::UnknownKeyword) {
                 mistakes.push(kind, token.span());
                 reported = true;
             }
@@ -173,7 +173,7 @@ impl<'s> Entities<'s> {
         }
     }
 
-    /// The word after `view`, if there is one.
+    /// Returns the word after `view`, if there is one.
     fn word(&mut self) -> Option<Token<'s>> {
         let (token, lexeme) = self.ahead?;
         (lexeme == Lexeme::Word).then(|| {
@@ -182,11 +182,11 @@ impl<'s> Entities<'s> {
         })
     }
 
-    /// Reads the numbers that come next and tells whether there were only numbers. A word on a
-    /// new line ends them: it is a misspelt keyword rather than a misspelt number.
+    /// Reads the following numbers and returns whether all of them are valid. A word on a new line ends them: it is a
+    /// misspelt keyword rather than a misspelt number.
     fn numbers(&mut self, numbers: &mut Vec<f64>, mistakes: &mut Sink) -> bool {
         numbers.clear();
-        let mut sound = true;
+        let mut valid = true;
         while let Some((token, lexeme)) = self.ahead {
             match lexeme {
                 Lexeme::Number(number) => {
@@ -197,20 +197,22 @@ impl<'s> Entities<'s> {
                 Lexeme::Keyword(_) => break,
                 Lexeme::Binary => return false,
                 Lexeme::Word if token.opens_line => break,
-                Lexeme::NotFinite => mistakes.push(Kind::NotFinite, token.span()),
-                Lexeme::Malformed | Lexeme::Word => mistakes.push(Kind::NotANumber, token.span()),
+                Lexeme::NotFinite => mistakes.push(MistakeKind::NotFinite, token.span()),
+                Lexeme::Malformed | Lexeme::Word => {
+                    mistakes.push(MistakeKind::NotANumber, token.span())
+                }
             }
-            sound = false;
+            valid = false;
             if mistakes.ends_reading() {
                 break;
             }
             self.advance();
         }
-        sound
+        valid
     }
 
-    /// Appends the numbers that come next to `numbers` and looks ahead at what is none. Nearly all
-    /// tokens pass here, without being stored.
+    /// Appends the following numbers to `numbers` and stops at the first token that is not one. Nearly all tokens pass
+    /// here without being stored.
     fn advance_over(&mut self, numbers: &mut Vec<f64>) {
         for token in &mut self.lexer {
             match token.lexeme() {

@@ -1,19 +1,19 @@
-//! What a scene has once: the camera, whose parts are several entities, the resolution and the
+//! The parts that a scene has once: the camera, which is spread over several entities, the resolution and the
 //! background.
 
 use super::entity::Entity;
-use super::token::{Keyword, Span};
 use crate::check::{self, Fault};
-use crate::diagnostic::{Diagnostic, Kind, Sink};
+use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::{Camera, Colour, Point, Projection, Scene};
+use crate::word::{Keyword, Span};
 
-/// Rows and columns where the file says nothing.
+/// Rows and columns if the file does not state them.
 const DEFAULT_SIZE: u32 = 512;
 
 /// The parts that have been read so far.
 #[derive(Debug, Default)]
 pub(super) struct Header {
-    /// The position, if it stands right after `v`.
+    /// The position, if it follows `v` directly.
     viewpoint: Option<Part<Option<Point>>>,
     from: Option<Part<Point>>,
     at: Option<Part<Point>>,
@@ -24,23 +24,23 @@ pub(super) struct Header {
     /// Width and height.
     resolution: Option<Part<[u32; 2]>>,
     background: Option<Part<Colour>>,
-    /// Whether we are inside the `v` of NFF, where a resolution has its width first.
+    /// Whether the parser is inside the `v` of NFF, where a resolution has its width first.
     inside_nff: bool,
-    /// Whether a part of the camera was wrong, so that the whole cannot be judged.
-    spoilt: bool,
+    /// Whether a part of the camera was wrong, so that the whole cannot be checked.
+    invalid: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Part<T> {
     value: T,
-    /// Where its keyword stands.
+    /// The place of its keyword.
     keyword: Span,
-    /// Where its numbers stand.
+    /// The place of its numbers.
     numbers: Span,
 }
 
 impl Header {
-    /// Takes note that an entity begins: the `v` of NFF ends at the first foreign keyword.
+    /// Notes that an entity begins: the `v` of NFF ends at the first keyword that does not belong to it.
     pub(super) fn pass(&mut self, keyword: Keyword) {
         self.inside_nff &= matches!(
             keyword,
@@ -54,8 +54,8 @@ impl Header {
         );
     }
 
-    /// Takes note that there was a `keyword`, though a wrong one.
-    pub(super) fn spoil(&mut self, keyword: Keyword, span: Span) {
+    /// Notes that there was a `keyword` with a mistake.
+    pub(super) fn mark_invalid(&mut self, keyword: Keyword, span: Span) {
         if keyword == Keyword::Viewpoint && self.viewpoint.is_none() {
             self.viewpoint = Some(Part {
                 value: None,
@@ -64,13 +64,13 @@ impl Header {
             });
             self.inside_nff = true;
         }
-        self.spoilt |= matches!(
+        self.invalid |= matches!(
             keyword,
             Keyword::Viewpoint | Keyword::From | Keyword::At | Keyword::Up | Keyword::Angle
         );
     }
 
-    /// Takes the part that `entity` is.
+    /// Stores the part that `entity` holds.
     pub(super) fn place(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
         match entity.keyword {
             Keyword::Viewpoint => {
@@ -118,10 +118,10 @@ impl Header {
         }
     }
 
-    /// A scene without objects. What is missing, or does not fit together, is put in `mistakes`.
+    /// Returns a scene without objects. Missing or contradictory parts are reported in `mistakes`.
     pub(super) fn finish(self, end: Span, mistakes: &mut Sink) -> Scene {
         let camera = self.camera(end).unwrap_or_else(|mistake| {
-            // After a mistake that ends reading, what is missing may stand in the rest.
+            // If a mistake ended reading, missing parts may be in the rest.
             if let Some(Diagnostic { kind, span }) = mistake.filter(|_| !mistakes.ends_reading()) {
                 mistakes.push(kind, span);
             }
@@ -148,20 +148,20 @@ impl Header {
         }
     }
 
-    /// The camera, or what is wrong with it unless that has been reported.
+    /// Returns the camera, or what is wrong with it unless that has been reported.
     fn camera(&self, end: Span) -> Result<Camera, Option<Diagnostic>> {
         let mistake = |span, kind| Some(Diagnostic { kind, span });
         let viewpoint = self
             .viewpoint
-            .ok_or_else(|| mistake(end, Kind::NoViewpoint))?;
-        if self.spoilt {
+            .ok_or_else(|| mistake(end, MistakeKind::NoViewpoint))?;
+        if self.invalid {
             return Err(None);
         }
         let projection = self
             .projection
             .map_or(Projection::Perspective, |view| view.value);
         let from = match (viewpoint.value, self.from) {
-            (Some(_), Some(from)) => return Err(mistake(from.keyword, Kind::TwoEyes)),
+            (Some(_), Some(from)) => return Err(mistake(from.keyword, MistakeKind::TwoEyes)),
             (position, from) => position.or(from.map(|from| from.value)),
         };
         let camera = match (viewpoint.value, from, self.at, self.up, self.angle) {
@@ -184,7 +184,7 @@ impl Header {
                     (angle.is_some(), Keyword::Angle),
                 ];
                 let missing = parts.into_iter().filter(|part| !part.0).map(|part| part.1);
-                let kind = Kind::Incomplete {
+                let kind = MistakeKind::Incomplete {
                     missing: missing.collect(),
                 };
                 return Err(mistake(viewpoint.keyword, kind));
@@ -197,13 +197,13 @@ impl Header {
                 Fault::Angle => self.angle.map(|angle| angle.numbers),
                 _ => None,
             };
-            mistake(part.unwrap_or(viewpoint.numbers), Kind::Fault(fault))
+            mistake(part.unwrap_or(viewpoint.numbers), MistakeKind::Fault(fault))
         })?;
         Ok(camera)
     }
 }
 
-/// Fills a part that must be empty; its numbers from `first` on are what will be blamed for it.
+/// Stores a part that must be empty. A later mistake in it refers to its numbers from `first` on.
 fn put<T: Copy>(
     part: &mut Option<Part<T>>,
     value: T,
@@ -211,7 +211,7 @@ fn put<T: Copy>(
     first: usize,
 ) -> Result<(), Diagnostic> {
     if let Some(Part { keyword: first, .. }) = *part {
-        let kind = Kind::Duplicate {
+        let kind = MistakeKind::Duplicate {
             keyword: entity.keyword,
             first,
         };

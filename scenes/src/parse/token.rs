@@ -1,121 +1,6 @@
-//! Tokens: what stands between white space, with its place in the source.
+//! Tokens: texts between white space, with their places in the source.
 
-/// A range of bytes of the source; always on character boundaries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Span {
-    /// The first byte.
-    pub start: usize,
-    /// One past the last byte.
-    pub end: usize,
-}
-
-/// The words a scene file is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Keyword {
-    /// `v`
-    Viewpoint,
-    /// `from`
-    From,
-    /// `at`
-    At,
-    /// `up`
-    Up,
-    /// `angle`
-    Angle,
-    /// `hither`
-    Hither,
-    /// `resolution`
-    Resolution,
-    /// `view`
-    View,
-    /// `b`
-    Background,
-    /// `l`
-    Light,
-    /// `f`
-    Surface,
-    /// `s`
-    Sphere,
-    /// `c`
-    Cone,
-    /// `box`
-    Cuboid,
-    /// `p`
-    Polygon,
-    /// `pp`
-    Patch,
-}
-
-impl Keyword {
-    /// As it is written.
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::Viewpoint => "v",
-            Self::From => "from",
-            Self::At => "at",
-            Self::Up => "up",
-            Self::Angle => "angle",
-            Self::Hither => "hither",
-            Self::Resolution => "resolution",
-            Self::View => "view",
-            Self::Background => "b",
-            Self::Light => "l",
-            Self::Surface => "f",
-            Self::Sphere => "s",
-            Self::Cone => "c",
-            Self::Cuboid => "box",
-            Self::Polygon => "p",
-            Self::Patch => "pp",
-        }
-    }
-
-    /// What must follow it, in words.
-    pub fn wants(self) -> &'static str {
-        match self {
-            Self::Viewpoint => "3 numbers (x y z), or none, then `from`, `at`, `up` and `angle`",
-            Self::From | Self::At | Self::Up => "3 numbers: x y z",
-            Self::Angle => "1 number: degrees",
-            Self::Hither => "1 number",
-            Self::Resolution => {
-                "2 numbers: height then width, or width then height inside the `v` of NFF"
-            }
-            Self::View => "`parallel` or `perspective`",
-            Self::Background => "3 numbers: red green blue",
-            Self::Light => "3 numbers (x y z), 4 (x y z brightness) or 6 (x y z red green blue)",
-            Self::Surface => {
-                "8 numbers (r g b Kd Ks shine T ior), or 12 or 13 \
-                 (ar ag ab dr dg db sr sg sb shine reflect refract [ior])"
-            }
-            Self::Sphere => "4 numbers: x y z radius",
-            Self::Cone => "8 numbers: base x y z radius, top x y z radius",
-            Self::Cuboid => "6 numbers: centre x y z, side lengths x y z",
-            Self::Polygon => "the number of vertices, then x y z of each",
-            Self::Patch => "the number of vertices, then x y z and normal x y z of each",
-        }
-    }
-
-    fn of(text: &str) -> Option<Self> {
-        Some(match text {
-            "v" => Self::Viewpoint,
-            "from" => Self::From,
-            "at" => Self::At,
-            "up" => Self::Up,
-            "angle" => Self::Angle,
-            "hither" => Self::Hither,
-            "resolution" => Self::Resolution,
-            "view" => Self::View,
-            "b" => Self::Background,
-            "l" => Self::Light,
-            "f" => Self::Surface,
-            "s" => Self::Sphere,
-            "c" => Self::Cone,
-            "box" => Self::Cuboid,
-            "p" => Self::Polygon,
-            "pp" => Self::Patch,
-            _ => return None,
-        })
-    }
-}
+use crate::word::{Keyword, Span};
 
 /// One token.
 #[derive(Clone, Copy, Debug)]
@@ -124,11 +9,11 @@ pub(crate) struct Token<'s> {
     pub(crate) text: &'s str,
     /// Its first byte in the source.
     pub(crate) start: usize,
-    /// Whether a line break, or nothing at all, stands before it. It only shapes error messages.
+    /// Whether it is the first token of its line. This affects only error messages.
     pub(crate) opens_line: bool,
 }
 
-/// What a token means.
+/// The meaning of a token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Lexeme {
     Keyword(Keyword),
@@ -136,11 +21,11 @@ pub(crate) enum Lexeme {
     Number(f64),
     /// `nan`, `inf`, or a number beyond `f64`.
     NotFinite,
-    /// Begins like a number but is none.
+    /// Begins like a number but is not one.
     Malformed,
     /// Any other word.
     Word,
-    /// Holds a control character: this is no text file.
+    /// Contains a control character: this is not a text file.
     Binary,
 }
 
@@ -167,7 +52,7 @@ impl Token<'_> {
     }
 }
 
-/// Cuts a source into tokens. It keeps no more than its place.
+/// Splits a source into tokens. Its only state is its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Lexer<'s> {
     source: &'s str,
@@ -231,7 +116,7 @@ pub(super) mod tests {
         TOKENS.set(TOKENS.get() + 1);
     }
 
-    /// How many tokens this thread asked for while `run` ran.
+    /// Returns how many tokens this thread requested during `run`.
     pub(in crate::parse) fn tokens_read(run: impl FnOnce()) -> usize {
         let before = TOKENS.get();
         run();

@@ -11,7 +11,7 @@ use crate::object::ObjectRef;
 use crate::ray::Aabb;
 use crate::shape::Shapes;
 
-/// The memory a tree is built in, all of it lent.
+/// The memory that a tree is built in, all of it lent.
 #[derive(Debug)]
 pub struct Bvh8Memory<'a, B> {
     /// Room for inner nodes; at least one. What does not fit stays unsplit.
@@ -68,7 +68,7 @@ impl<'a, B: BoundScalar> Bvh8<'a, B> {
     }
 }
 
-/// Splits breadth first. A node that waits holds its range of objects and its depth in the words
+/// Splits breadth first. A node that is not built yet holds its range of objects and its depth in the words
 /// of its children, so that no other memory is needed. Returns how many nodes there are.
 fn grow<B: BoundScalar>(
     nodes: &mut [Bvh8Node<B>],

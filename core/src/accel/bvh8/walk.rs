@@ -8,11 +8,12 @@ use crate::accel::query::{Query, accelerate};
 use crate::accel::sah::WIDTH;
 use crate::accel::scalar::AccelScalar;
 use crate::accel::stack::TraversalStack;
+use crate::array::map3;
 use crate::features::FeatureSet;
 use crate::observe::Observer;
 use crate::ray::Ray;
 
-/// The ray as the walk wants it.
+/// The ray in the numbers of the boxes, prepared once for all nodes.
 struct WalkRay<B: ClipBoxes> {
     origin: [B; 3],
     inv_direction: [InvDirection<B>; 3],
@@ -24,10 +25,10 @@ struct WalkRay<B: ClipBoxes> {
 impl<B: ClipBoxes> WalkRay<B> {
     #[inline(always)]
     fn new<S: AccelScalar<Bound = B>>(ray: &Ray<S>) -> Self {
-        let origin = ray.origin.to_array().map(S::to_bound);
-        let inv_direction = ray.direction.to_array().map(S::inv_direction);
+        let origin = map3(ray.origin.to_array(), S::to_bound);
+        let inv_direction = map3(ray.direction.to_array(), S::inv_direction);
         let pick = |flip: bool| {
-            [0, 1, 2].map(|i: usize| {
+            map3([0, 1, 2], |i: usize| {
                 if inv_direction[i].negative == flip {
                     i
                 } else {
@@ -46,15 +47,15 @@ impl<B: ClipBoxes> WalkRay<B> {
     #[inline(always)]
     fn slab_planes<'n>(&self, node: &'n Bvh8Node<B>) -> SlabPlanes<'n, B> {
         SlabPlanes {
-            near: self.near.map(|i| &node.planes[i]),
-            far: self.far.map(|i| &node.planes[i]),
+            near: map3(self.near, |i| &node.planes[i]),
+            far: map3(self.far, |i| &node.planes[i]),
         }
     }
 }
 
 impl<B: ClipBoxes> Bvh8<'_, B> {
-    /// Children are visited in the order in which the ray enters them; a search for any hit takes
-    /// them as they come.
+    /// Children are visited in the order in which the ray enters them; a query for any hit takes
+    /// them in the order of the node.
     ///
     /// The nearest child is visited next without a push. The stack pointer is a `u8` and the stack
     /// has 256 slots, so indexing needs no bounds check.
@@ -103,7 +104,7 @@ impl<B: ClipBoxes> Bvh8<'_, B> {
                 }
                 next = Some(first.0);
             }
-            // Leaves are emptied on the spot; the next inner node within the limit goes on.
+            // Test the objects of leaves at once, until there is an inner node to visit.
             node = loop {
                 let word = match next.take() {
                     Some(word) => word,
@@ -124,7 +125,7 @@ impl<B: ClipBoxes> Bvh8<'_, B> {
                     }
                 }
                 let start = (word & !ChildWord::LEAF) as usize;
-                if query.test_list(self.links.get(start..).unwrap_or(&[])) {
+                if query.test_list::<true>(self.links.get(start..).unwrap_or(&[])) {
                     return;
                 }
             };

@@ -5,6 +5,7 @@ use super::ray::Along;
 use super::{CompactBvh8, CompactStack};
 use crate::accel::query::{Query, accelerate};
 use crate::accel::scalar::AccelScalar;
+use crate::array::map3;
 use crate::features::FeatureSet;
 use crate::observe::Observer;
 
@@ -36,7 +37,7 @@ impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
         let mut waiting = 0usize;
         while let Some(header) = Header::read(self.words, at) {
             query.observer.step(header.count);
-            let [x, y, z] = [0, 1, 2].map(|i| along[i].at(&header, i));
+            let [x, y, z] = map3([0, 1, 2], |i: usize| along[i].at(&header, i));
             let base = waiting;
             let first = at + HEADER;
             let children = self.words.get(first..first + header.count * CHILD);
@@ -48,7 +49,7 @@ impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
                     && y.clip(near >> 8 & 255, far >> 8 & 255, &mut enter, &mut exit)
                     && z.clip(near >> 16 & 255, far >> 16 & 255, &mut enter, &mut exit);
                 if !met || waiting >= ROOM {
-                    // Both cannot happen: a tree that needs more room is refused when it is made.
+                    // Never for want of room: a tree that needs more is refused when it is made.
                     if met {
                         query.observer.dropped_child();
                     }
@@ -80,7 +81,7 @@ impl<const ROOM: usize> CompactBvh8<'_, ROOM> {
                     break place as usize * CHILD;
                 }
                 let start = (place & !LEAF) as usize;
-                if query.test_list(self.links.get(start..).unwrap_or_default()) {
+                if query.test_list::<false>(self.links.get(start..).unwrap_or_default()) {
                     return;
                 }
                 limit = self.ticks(query.limit.to_grid());

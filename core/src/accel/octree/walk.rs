@@ -9,7 +9,7 @@ use crate::accel::scalar::AccelScalar;
 use crate::accel::stack::TraversalStack;
 use crate::features::FeatureSet;
 use crate::observe::Observer;
-use crate::vec3::Axis;
+use crate::vec3::{Axis, Vec3};
 
 impl<B: BoundScalar> Octree<'_, B> {
     /// Cells are visited in the order in which the ray enters them.
@@ -21,24 +21,7 @@ impl<B: BoundScalar> Octree<'_, B> {
     ) {
         let origin = query.ray.origin.map(S::to_bound);
         let inv_direction = query.ray.direction.map(S::inv_direction);
-        let enter = |node: &OctreeNode<B>, limit: B| {
-            let (mut entry, mut exit) = (B::ZERO, limit);
-            for axis in Axis::ALL {
-                let InvDirection {
-                    negative,
-                    near,
-                    far,
-                } = inv_direction[axis];
-                let (low, high) = (
-                    node.bounds.low[axis].round_down(),
-                    node.bounds.high[axis].round_up(),
-                );
-                let (first, last) = if negative { (high, low) } else { (low, high) };
-                entry = entry.max(first.distance(origin[axis], near));
-                exit = exit.min(last.distance(origin[axis], far));
-            }
-            (entry <= exit).then_some(entry)
-        };
+        let enter = |node: &OctreeNode<B>, limit: B| entry_of(node, origin, inv_direction, limit);
         let Some(root) = self.nodes.first() else {
             return;
         };
@@ -61,7 +44,7 @@ impl<B: BoundScalar> Octree<'_, B> {
             let start = node.first as usize;
             let end = start + node.count() as usize;
             if node.is_leaf() {
-                if query.test_list(self.links.get(start..end).unwrap_or_default()) {
+                if query.test_list::<false>(self.links.get(start..end).unwrap_or_default()) {
                     return;
                 }
                 continue;
@@ -82,6 +65,32 @@ impl<B: BoundScalar> Octree<'_, B> {
             }
         }
     }
+}
+
+/// The distance at which a ray enters a node's box, if it does so within `limit`.
+#[inline(always)]
+fn entry_of<B: BoundScalar>(
+    node: &OctreeNode<B>,
+    origin: Vec3<B>,
+    inv_direction: Vec3<InvDirection<B>>,
+    limit: B,
+) -> Option<B> {
+    let (mut entry, mut exit) = (B::ZERO, limit);
+    for axis in Axis::ALL {
+        let InvDirection {
+            negative,
+            near,
+            far,
+        } = inv_direction[axis];
+        let (low, high) = (
+            node.bounds.low[axis].round_down(),
+            node.bounds.high[axis].round_up(),
+        );
+        let (first, last) = if negative { (high, low) } else { (low, high) };
+        entry = entry.max(first.distance(origin[axis], near));
+        exit = exit.min(last.distance(origin[axis], far));
+    }
+    (entry <= exit).then_some(entry)
 }
 
 accelerate!([] Octree<'_, S::Bound>, stack: TraversalStack<S::Bound>, scalar: AccelScalar);

@@ -1,6 +1,7 @@
 //! 64-bit fixed point, the reference beside the 32-bit formats: exact integer square root and
 //! division, slow and plain.
 
+use crate::array::map3;
 use crate::scalar::operators::operators;
 use crate::scalar::{Exponent, Intensity, Ratio, SaturationCounter, Scalar, Tolerance};
 use core::cmp::Ordering;
@@ -151,12 +152,12 @@ impl<C: SaturationCounter> Scalar for Fixed64<C> {
         }
         // The largest component comes to lie in [2⁶⁰, 2⁶¹) or keeps its place above.
         let up = size.leading_zeros().saturating_sub(3);
-        let scaled = v.map(|c| i128::from(c.0) << up);
+        let scaled = map3(v, |c| i128::from(c.0) << up);
         let square = scaled.iter().fold(0u128, |sum, c| {
             sum.wrapping_add(c.unsigned_abs().wrapping_mul(c.unsigned_abs()))
         });
         let length = square.isqrt().max(1) as i128;
-        let unit = scaled.map(|c| saturate((c << F) / length));
+        let unit = map3(scaled, |c| saturate((c << F) / length));
         (unit, saturate(length >> up))
     }
 

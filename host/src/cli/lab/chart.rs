@@ -14,17 +14,17 @@ use octray_render::picture::Target;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// The most combinations of scenes, settings and costs: a chart of more could not be read.
+/// The largest number of combinations of scenes, settings and costs: a chart of more would be unreadable.
 const MOST: usize = 256;
 
 /// Arguments of `octray chart`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Every combination of the lists is a point. An arithmetic's name tells Newton steps (approx0 to approx2) or integer and \
-fraction bits. Costs are host-time (seconds; differs from run to run), host-instructions (counted by Valgrind), events \
-(instructions estimated from counted rays, steps and tests: for settings, being the same for all arithmetics), and boards \
-such as m3 (instructions counted in QEMU; see octray measure), which have no trees but \
-compact-bvh8 and none, and no several rays per pixel.
+Every combination of the lists is a point. An arithmetic's name states its Newton steps (approx0 to approx2) or its integer \
+and fraction bits. Costs are host-time (seconds; varies between runs), host-instructions (counted by Valgrind), events \
+(instructions estimated from counted rays, steps and tests: for comparing settings; equal for all arithmetics), and \
+boards such as m3 (instructions counted in QEMU; see octray measure). Boards support only the trees compact-bvh8 and none, \
+and one ray per pixel at most.
 
 The knee is the point of the frontier that lies farthest above the straight line between its ends, in decibels over \
 the logarithm of the cost.")]
@@ -38,10 +38,10 @@ pub struct ChartArgs {
     /// Trees [default: bvh8, or compact-bvh8 with a board]
     #[arg(long, value_name = "LIST", value_parser = value::choice::<TreeKind>(), value_delimiter = ',')]
     tree: Vec<TreeKind>,
-    /// How often a ray may bounce
+    /// Maximum numbers of bounces of a ray
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "8", value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)))]
     max_depth: Vec<u32>,
-    /// Weights, from 0 to 1, below which a ray is not traced
+    /// Weights from 0 to 1; rays of a smaller weight are not traced
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1/512", value_parser = value::weight)]
     cut_off: Vec<f64>,
     /// Pixels that one ray colours
@@ -56,27 +56,27 @@ pub struct ChartArgs {
     /// K x K rays per pixel
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1", value_parser = value_parser!(u32).range(1..=64))]
     samples: Vec<u32>,
-    /// What a frame costs: host-time, host-instructions, events, or a board; a panel for each
+    /// Cost of a frame: host-time, host-instructions, events, or a board; one panel each
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "host-time", value_parser = CostKind::named)]
     cost: Vec<CostKind>,
-    /// Columns and rows; the framing stays
+    /// Columns and rows; the framing stays the same
     #[arg(long, value_name = "WxH", default_value = "128x96", value_parser = value::size)]
     size: (u32, u32),
 
-    /// What accuracy is relative to: f64 of the same settings, or f64 that has converged [default: the same where
-    /// points differ in nothing but arithmetic and tree]
+    /// Reference of the accuracy: f64 with the same settings, or converged f64 [default: the same settings, if points
+    /// differ only in arithmetic and tree]
     #[arg(long, value_name = "WHAT", value_parser = value::choice::<Against>())]
     against: Option<Against>,
-    /// K x K rays per pixel of the converged picture
+    /// K x K rays per pixel of the converged reference
     #[arg(long, value_name = "K", default_value_t = 16, value_parser = value_parser!(u32).range(1..=64))]
     converged_samples: u32,
-    /// Rounds of which the median time counts
+    /// Number of rounds; the median time counts
     #[arg(long, value_name = "N", default_value = "5", value_parser = value::positive::<NonZeroUsize>)]
     rounds: NonZeroUsize,
-    /// Choose the fastest of at least so many decibels
+    /// Choose the fastest point with at least this PSNR, in decibels
     #[arg(long, value_name = "DB", default_value = "40", value_parser = value::not_negative)]
     min_psnr: f64,
-    /// Choose the most accurate that costs at most so much: instructions or seconds of a frame
+    /// Choose the most accurate point within this cost: instructions or seconds per frame
     #[arg(long, value_name = "COST", value_parser = value::not_negative)]
     budget: Option<f64>,
 
@@ -95,11 +95,11 @@ const ARITHS: &str =
     "f64,f32,approx0,approx1,approx2,i24f8,i20f12,i16f16,i12f20,i8f24,i4f28,i32f32";
 
 impl ChartArgs {
-    /// The job that these arguments ask for: nothing in it twice.
+    /// Returns the job, without duplicates.
     ///
     /// # Errors
-    /// [`Error::Usage`] if there are too many combinations or none, a board cannot do what is asked for, or a
-    /// result would replace a scene or another result.
+    /// [`Error::Usage`] if there are no combinations or too many, if a board does not support a setting, or if a result
+    /// would replace a scene or another result.
     pub fn job(self) -> Result<ChartJob, Error> {
         self.check_files()?;
         let costs = lists::once(self.cost, |a, b| a.name() == b.name());
@@ -144,7 +144,7 @@ impl ChartArgs {
                 ));
             }
             if grid.samples != [1] {
-                return usage(format!("on {board} no pixel has several rays"));
+                return usage(format!("{board} supports no more than one ray per pixel"));
             }
         }
         let against = match grid.is_of_one_picture() {
@@ -169,7 +169,8 @@ impl ChartArgs {
         })
     }
 
-    /// No file is to be written twice, none over a scene, and the chart's name has to say what it is.
+    /// Checks that no file is written twice, that no scene is replaced, and that the chart's extension is a known
+    /// format.
     fn check_files(&self) -> Result<(), Error> {
         let results = [&self.output, &self.csv, &self.json];
         files::distinct(&self.scenes, results.into_iter().flatten())?;
@@ -188,14 +189,14 @@ mod tests {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestCommand {
         #[command(flatten)]
         args: ChartArgs,
     }
 
     fn parse(line: &str) -> Result<ChartArgs, clap::Error> {
         let words = std::iter::once("chart").chain(line.split_whitespace());
-        Line::try_parse_from(words).map(|line| line.args)
+        TestCommand::try_parse_from(words).map(|line| line.args)
     }
 
     fn job(line: &str) -> ChartJob {
@@ -214,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn every_list_reaches_the_grid_and_nothing_is_in_it_twice() {
+    fn every_list_reaches_the_grid_without_duplicates() {
         let job = job(
             "a b --arith f32,auto,f32 --tree none,plain --max-depth 0,2,2 --cut-off 0,1/64 \
              --pixels-per-ray 1,4 --samples 1 --cost events,host-instructions,events --size 8x9 \
@@ -227,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_board_the_tree_is_one_that_boards_have() {
+    fn with_a_board_the_default_tree_is_one_that_boards_support() {
         assert_eq!(
             job("a --cost m3,host-time").grid.trees,
             [TreeKind::CompactBvh8]
@@ -256,7 +257,7 @@ mod tests {
             ("a --samples 2 --pixels-per-ray 4", "contradict"),
             ("--max-depth 0,1,2,3,4", "300 combinations"),
             ("a --cost m3 --tree tight", "m3 has no bvh8 tree"),
-            ("a --cost m3 --samples 2", "no pixel has several rays"),
+            ("a --cost m3 --samples 2", "no more than one ray per pixel"),
             ("a -o b.bmp", ".bmp"),
             ("a -o b.svg --csv b.svg", "one file"),
             ("a --json a", "which is read"),

@@ -3,11 +3,11 @@
 use crate::cli::value::{MOST, positive};
 use std::num::NonZeroU32;
 
-/// Whole numbers, none of them 0.
+/// A list of whole numbers, none of them 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Whole(pub(super) Vec<NonZeroU32>);
 
-/// Whole numbers such as `1,2,7`, or `1..1024`: the first one, doubled until it would pass the last one.
+/// Parses whole numbers such as `1,2,7`, or `1..1024`: the first number, doubled while it is at most the last.
 pub(super) fn doubling(text: &str) -> Result<Whole, String> {
     let numbers = match text.split_once("..") {
         Some((first, last)) => {
@@ -33,7 +33,7 @@ pub(super) fn doubling(text: &str) -> Result<Whole, String> {
     }
 }
 
-/// Each once, in the order of their first mention.
+/// Removes duplicates; the first occurrence stays.
 pub(super) fn once<T>(all: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
     let mut found: Vec<T> = Vec::new();
     for item in all {

@@ -18,10 +18,10 @@ use std::time::Duration;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
 Boards: m0 (Cortex-M0, micro:bit), m3, m4 (without its floating-point unit), m4f, m7f,
-rv32imac, sifive-e, rv32imafc. A target's name stands for all its boards.
+rv32imac, sifive-e, rv32imafc. A target's name means all of its boards.
 
-Instructions are counted by a plugin of QEMU, exactly; start-up and the panel are left out.
-Cycles are estimated from the cores' manuals at zero wait states.")]
+A QEMU plugin counts instructions exactly, without start-up and panel.
+Cycles are estimated from the cores' manuals, for zero wait states.")]
 pub struct MeasureArgs {
     /// Scene files [default: the five figures]
     #[arg(value_name = "SCENE")]
@@ -41,28 +41,28 @@ pub struct MeasureArgs {
         default_value = "f32,auto"
     )]
     arith: Vec<Arith>,
-    /// Columns and rows; the framing stays
+    /// Columns and rows; the framing stays the same
     #[arg(long, value_name = "WxH", default_value = "64x48", value_parser = value::size)]
     size: (u32, u32),
-    /// How often a ray may bounce
+    /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)))]
     max_depth: u32,
     /// Pixels that one ray colours: 1, or 4 in squares of two by two
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
-    /// The weight, from 0 to 1, below which a ray is not traced
+    /// Do not trace rays of a smaller weight than this, from 0 to 1
     #[arg(long, value_name = "C", default_value = "1/512", value_parser = value::weight)]
     cut_off: f64,
     /// The firmware's tree
     #[arg(long, value_name = "KIND", value_parser = value::choice::<FirmwareTree>(), default_value = FirmwareTree::default().name())]
     tree: FirmwareTree,
-    /// What the compiler makes small
+    /// What the compiler optimizes for
     #[arg(long, value_name = "WHAT", value_parser = value::choice::<Goal>(), default_value = Goal::default().name())]
     optimize: Goal,
-    /// Seconds after which a run counts as one without end
+    /// Abort a run after this many seconds
     #[arg(long, value_name = "S", default_value_t = 300, value_parser = value_parser!(u64).range(1..))]
     patience: u64,
-    /// Tell the N costliest functions of each run
+    /// Print the N most expensive functions of each run
     #[arg(long, value_name = "N", default_value_t = 0)]
     functions: usize,
     /// Write the results as JSON
@@ -71,16 +71,16 @@ pub struct MeasureArgs {
     /// Write the results as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw costs without and with a floating-point unit: .svg, .png or .ppm
+    /// Draw a chart of the costs without and with a floating-point unit: .svg, .png or .ppm
     #[arg(long, value_name = "FILE")]
     chart: Option<PathBuf>,
 }
 
 impl MeasureArgs {
-    /// The job that these arguments ask for: nothing in it twice.
+    /// Returns the job, without duplicates.
     ///
     /// # Errors
-    /// [`Error::Usage`] if a result would replace a scene or another result, or a chart has nothing to show.
+    /// [`Error::Usage`] if a result would replace a scene or another result, or if a chart would be empty.
     pub fn job(self) -> Result<MeasureJob, Error> {
         let results = [&self.json, &self.csv, &self.chart];
         files::distinct(&self.scenes, results.into_iter().flatten())?;
@@ -131,14 +131,14 @@ mod tests {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestCommand {
         #[command(flatten)]
         args: MeasureArgs,
     }
 
     fn parse(line: &str) -> Result<MeasureArgs, clap::Error> {
         let words = std::iter::once("measure").chain(line.split_whitespace());
-        Line::try_parse_from(words).map(|line| line.args)
+        TestCommand::try_parse_from(words).map(|line| line.args)
     }
 
     fn boards(line: &str) -> Vec<&'static str> {
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_measured_twice() {
+    fn duplicates_are_measured_once() {
         let named = boards("--targets m7f,thumbv7em-none-eabihf,m0,m7f");
         assert_eq!(named, ["m7f", "m4f", "m0"]);
         let job = parse("--arith f32,f32,i16f16").unwrap().job().unwrap();

@@ -17,35 +17,35 @@ pub struct PanelArgs {
     /// Columns and rows of the panel
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = value::size)]
     panel: (u32, u32),
-    /// What its pixels can show
+    /// Colours of the panel's pixels
     #[arg(long, value_name = "KIND", value_parser = value::choice::<Color>(), default_value = Color::default().name())]
     color: Color,
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_parser = value::choice::<Arith>(), default_value = Arith::Auto.name())]
     arith: Arith,
-    /// Round colours to the nearest instead of dithering them
+    /// Round to the nearest colour instead of dithering
     #[arg(long)]
     no_dither: bool,
-    /// Leave out the line at the bottom that tells arithmetic, rays and time
+    /// Omit the line at the bottom with arithmetic, rays and time
     #[arg(long)]
     no_overlay: bool,
-    /// Show every pixel of the panel as N x N
+    /// Draw every pixel of the panel as N x N pixels
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=16))]
     scale: u32,
     /// The picture of the panel: .png, .ppm, .pfm or .ras [default: the scene's name with -panel.png,
     /// in the current folder]
     #[arg(short, long, value_name = "FILE", value_parser = value::target())]
     output: Option<Target>,
-    /// Write a picture after each strip into this folder, as frame-0001.png and so on
+    /// Write a picture after each strip into this folder: frame-0001.png and so on
     #[arg(long, value_name = "DIR")]
     frames: Option<PathBuf>,
 }
 
-/// The most pixels that a picture of the panel may have.
+/// The largest number of pixels of a picture of the panel.
 const MOST_PIXELS: u64 = 1 << 26;
 
 impl PanelArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
     /// [`Error::Usage`] if the panel is too large, or the picture would replace the scene.

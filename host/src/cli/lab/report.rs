@@ -17,10 +17,10 @@ use std::path::PathBuf;
 /// Arguments of `octray report`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-The page needs neither network nor script. It shows pictures in every arithmetic and where they differ, charts of speed \
-against accuracy, table III and sizes from the newest record of octray measure, and maps of where methods fail; under \
-each part stands the command that prints it again. Costs are those of octray chart; where the tool is missing that \
-counts them, the page says so.")]
+The page needs neither network nor scripts. It shows pictures in every arithmetic and where they differ, charts of \
+accuracy against cost, table III and sizes from the newest record of octray measure, and maps of where methods fail. Each \
+part ends with the command that reproduces it. Costs are those of octray chart; if the tool that counts them is missing, \
+the page says so.")]
 pub struct ReportArgs {
     /// Scene files [default: the five figures]
     #[arg(value_name = "SCENE")]
@@ -31,16 +31,16 @@ pub struct ReportArgs {
     /// Arithmetics, separated by commas
     #[arg(long, value_name = "LIST", value_parser = value::choice::<Arith>(), value_delimiter = ',', default_value = ARITHS)]
     arith: Vec<Arith>,
-    /// Columns and rows of the pictures; the framing stays
+    /// Columns and rows of the pictures; the framing stays the same
     #[arg(long, value_name = "WxH", default_value = "256x192", value_parser = value::size)]
     size: (u32, u32),
-    /// What frames in the charts cost: host-time, host-instructions, events, or a board
+    /// Cost of a frame in the charts: host-time, host-instructions, events, or a board
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "host-instructions,m3", value_parser = CostKind::named)]
     cost: Vec<CostKind>,
     /// Columns and rows of the frames in the charts
     #[arg(long, value_name = "WxH", default_value = "64x48", value_parser = value::size)]
     chart_size: (u32, u32),
-    /// Threads that look for limits [default: all cores]
+    /// Threads that search for limits [default: all cores]
     #[arg(long, value_name = "N", value_parser = value::threads)]
     threads: Option<NonZeroUsize>,
 }
@@ -49,7 +49,7 @@ const ARITHS: &str =
     "f64,f32,approx2,approx1,approx0,i32f32,i4f28,i8f24,i12f20,i16f16,i20f12,i24f8";
 
 impl ReportArgs {
-    /// The job that these arguments ask for: nothing in it twice.
+    /// Returns the job, without duplicates.
     ///
     /// # Errors
     /// [`Error::Usage`] if the page would replace a scene.
@@ -64,7 +64,7 @@ impl ReportArgs {
                 scenes: self.scenes,
                 grid: Grid {
                     ariths: ariths.clone(),
-                    // The one that boards have, so that the charts compare.
+                    // Boards support this kind; with it the charts are comparable.
                     trees: vec![TreeKind::CompactBvh8],
                     max_depths: vec![RenderSettings::DEFAULT.max_depth],
                     cut_offs: vec![RenderSettings::DEFAULT.cut_off],
@@ -99,18 +99,18 @@ mod tests {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestCommand {
         #[command(flatten)]
         args: ReportArgs,
     }
 
     fn job(line: &str) -> Result<ReportJob, Error> {
         let words = std::iter::once("report").chain(line.split_whitespace());
-        Line::try_parse_from(words).unwrap().args.job()
+        TestCommand::try_parse_from(words).unwrap().args.job()
     }
 
     #[test]
-    fn nothing_is_shown_twice() {
+    fn duplicates_are_shown_once() {
         let job = job("a --arith f32,auto,f32 --cost m3,events,m3").unwrap();
         assert_eq!(job.ariths, [Arith::F32, Arith::Auto]);
         assert_eq!(job.chart.costs.len(), 2);

@@ -18,74 +18,74 @@ use std::path::PathBuf;
 /// Arguments of `octray schedule`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Lists are such as 1,2,7 or 1..1024, which doubles: 1, 2, 4 and so on up to 1024. Costs are in instructions, \
-estimated from counted events, and the same every time. The machine is ideal unless told otherwise.")]
+Lists are numbers such as 1,2,7, or 1..1024, which doubles: 1, 2, 4 and so on up to 1024. Costs are instructions, \
+estimated from counted events, and the same in every run. By default the machine is ideal.")]
 pub struct ScheduleArgs {
     /// The scene file
     scene: PathBuf,
     /// Numbers of processors
     #[arg(long, value_name = "LIST", default_value = "1..1024", value_parser = lists::doubling)]
     processors: lists::Whole,
-    /// Rows of tiles that are strips
+    /// Heights of strips in rows
     #[arg(long, alias = "packet-rows", value_name = "LIST", default_value = "1..256", value_parser = lists::doubling)]
     tile_rows: lists::Whole,
     /// Sides of square tiles
     #[arg(long, alias = "tiles", value_name = "LIST", default_value = "4..256", value_parser = lists::doubling)]
     tile_sides: lists::Whole,
-    /// Which processor gets which tile [default: all]
+    /// How tiles are assigned to processors [default: all schedules]
     #[arg(long, alias = "policy", value_name = "HOW", value_parser = value::choice::<Policy>(), value_delimiter = ',')]
     schedule: Vec<Policy>,
-    /// Columns and rows; the framing stays [default: the scene's own]
+    /// Columns and rows; the framing stays the same [default: the scene's own]
     #[arg(long, value_name = "WxH", value_parser = value::size)]
     size: Option<(u32, u32)>,
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Arith,
-    /// Pixels that one ray colours; tiles whose sides are odd are left out with 4
+    /// Pixels that one ray colours; with 4, tiles with odd sides are left out
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel
     #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64))]
     samples: u32,
-    /// How often a ray may bounce
+    /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)))]
     max_depth: u32,
-    /// The kind of tree
+    /// The accelerator
     #[arg(long, value_name = "KIND", value_parser = value::choice::<TreeKind>(), default_value = TreeKind::default().name())]
     tree: TreeKind,
-    /// Instructions for which a tile that comes from others keeps them from handing out another
+    /// Instructions for which handing out a tile from a shared queue blocks the other processors
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
-    /// The same for each pixel of the tile, where pixels come back in messages
+    /// Additional instructions for each pixel of the tile, if pixels are returned in messages
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     per_pixel: f64,
-    /// Every tile for others than the first processor comes in a message from it, whatever the policy, as with
-    /// 'octray render --mpi'
+    /// The first processor hands out every tile of the others in a message, whatever the schedule, as 'octray render
+    /// --mpi' does
     #[arg(long)]
     messages: bool,
-    /// By how much of itself each further busy processor slows all of them
+    /// Slowdown of all processors per further busy processor, as a fraction
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
-    /// Instructions that one processor does before the others begin
+    /// Instructions that one processor executes before the others begin
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     serial: f64,
-    /// Print one JSON object with every combination instead of a table of the best
+    /// Print one JSON object with every combination instead of a table of the best ones
     #[arg(long)]
     json: bool,
     /// Write every combination to a file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// Draw heat maps of tiles by processors, and efficiency by processors: .svg, .png, .ppm or .ras
+    /// Draw heat maps of tiles against processors, and efficiency against processors: .svg, .png, .ppm or .ras
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 impl ScheduleArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
-    /// [`Error::Usage`] when no tile is left with four pixels per ray, a result would replace the scene or
-    /// another result, or the chart's name says nothing known.
+    /// [`Error::Usage`] if no tile is left with four pixels per ray, if a result would replace the scene or another
+    /// result, or if the chart's extension is unknown.
     pub fn job(self) -> Result<ScheduleJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
         let results = [&self.output, &self.csv];

@@ -15,15 +15,15 @@ use std::path::PathBuf;
 /// Arguments of `octray stability`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Truth is exact, and cases are the same on every machine. What holds, degrades and breaks is said above each table; \
-the limits are those around the gentlest value. A value is admitted if its scene fits the arithmetic and is not too \
-fine for it; there, no shipped form breaks. In maps, a dot holds, a pale symbol degrades and a dark one breaks; a bar \
-ends what is admitted.")]
+References are exact, and the cases are the same on every machine. The text above each table states what holds, degrades \
+and breaks; the limits are those around the easiest value. A value is admitted if its scene fits the arithmetic and is not \
+too fine for it; no form that octray ships breaks there. In maps, a dot means holds, a pale symbol degrades, a dark one \
+breaks; a bar marks the end of the admitted values.")]
 pub struct StabilityArgs {
-    /// The methods to look at [default: all]
+    /// The methods to examine [default: all]
     #[arg(value_name = "METHOD", value_parser = method())]
     methods: Vec<Method>,
-    /// Tell the limits in these arithmetics only, in one table for all methods
+    /// Print only the limits in these arithmetics, in one table for all methods
     #[arg(
         long,
         value_name = "ARITH,...",
@@ -31,22 +31,22 @@ pub struct StabilityArgs {
         value_delimiter = ','
     )]
     limits: Option<Vec<usize>>,
-    /// Write a map of each method into this folder, as SVG and as PNG; of polygons also the queries
+    /// Write a map of each method into this folder, as SVG and PNG; for polygons also the queries
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write all that was measured as JSON
+    /// Write all measurements as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write all that was measured as CSV, a line for each value, form and arithmetic
+    /// Write all measurements as CSV, one line per value, form and arithmetic
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Threads that measure [default: all cores]
+    /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = value::threads)]
     threads: Option<NonZeroUsize>,
 }
 
 impl StabilityArgs {
-    /// The job that these arguments ask for: nothing in it twice.
+    /// Returns the job, without duplicates.
     ///
     /// # Errors
     /// [`Error::Usage`] if two results are one file.

@@ -14,8 +14,8 @@ use std::path::PathBuf;
 /// Arguments of `octray tables`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Everything but what --time adds is the same every time. A figure of the thesis that is not known is `not at hand`; a copy \
-of lab/src/tables/thesis.csv with more of them, given by --thesis, is compared as it is.")]
+The output is the same in every run, except for what --time adds. Numbers of the thesis that are unknown print as \
+`not at hand`. To compare more of them, complete a copy of lab/src/tables/thesis.csv and pass it with --thesis.")]
 pub struct TablesArgs {
     /// The tables [default: all]
     #[arg(value_name = "TABLE", value_parser = value::choice::<Number>().ignore_case())]
@@ -23,22 +23,22 @@ pub struct TablesArgs {
     /// Print JSON instead of tables to read
     #[arg(long)]
     json: bool,
-    /// Write into this file instead of on standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write figures 24 and 25 into this folder, as SVG and PNG
     #[arg(long, value_name = "FOLDER")]
     charts: Option<PathBuf>,
-    /// Columns and rows of the pictures; the framing stays [default: the scenes' own, 512x512]
+    /// Columns and rows of the pictures; the framing stays the same [default: the scenes' own, 512x512]
     #[arg(long, value_name = "WxH", value_parser = value::size)]
     size: Option<(u32, u32)>,
-    /// Tell how long tracing took, too, on one thread
+    /// Print tracing times too, measured on one thread
     #[arg(long)]
     time: bool,
-    /// The thesis's figures, as comma-separated values [default: those that come with octray]
+    /// The thesis's numbers, as comma-separated values [default: those that come with octray]
     #[arg(long, value_name = "FILE")]
     thesis: Option<PathBuf>,
-    /// The record for table III, by `octray measure --csv` [default: the newest that comes with octray]
+    /// The record for table III, written by `octray measure --csv` [default: the newest that comes with octray]
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Processors in table VIII
@@ -47,22 +47,22 @@ pub struct TablesArgs {
     /// Rows of a tile in table IX
     #[arg(long, alias = "packet-rows", value_name = "H", default_value = "4", value_parser = value::count)]
     tile_rows: NonZeroU32,
-    /// Instructions for which a tile that is handed out keeps others from theirs, in VIII and IX
+    /// Instructions for which handing out a tile blocks the other processors, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
-    /// By how much of itself each further busy processor slows all of them, in VIII and IX
+    /// Slowdown of all processors per further busy processor, as a fraction, in VIII and IX
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
-    /// Instructions that one processor does before the others begin, in VIII and IX
+    /// Instructions that one processor executes before the others begin, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     serial: f64,
 }
 
 impl TablesArgs {
-    /// The job that these arguments ask for.
+    /// Returns the job.
     ///
     /// # Errors
-    /// [`Error::Usage`] if charts are asked for without their tables, or the output would replace a file that is read.
+    /// [`Error::Usage`] if charts are requested without their tables, or the output would replace an input.
     pub fn job(self) -> Result<TablesJob, Error> {
         let inputs = [&self.thesis, &self.record];
         files::distinct(inputs.into_iter().flatten(), &self.output)?;
