@@ -1,11 +1,12 @@
 //! What is too fine for a format. A scene that fits a format can still be finer than what the
 //! format's directions tell apart: then methods break (`octray stability` shows where).
 
-use super::camera::{add, length, times};
+use super::camera::length;
 use super::extent::{Extent, shape_box};
 use crate::settings::RenderSettings;
 use octray_core::quantize::Quantize;
 use octray_scenes::model::{Point, Scene, Shape};
+use octray_scenes::point::{add, times};
 use std::fmt;
 
 /// Something that a format is too coarse for.
