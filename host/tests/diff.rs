@@ -3,9 +3,8 @@
 mod common;
 
 use common::{names, octray, pictures, ppm};
-use snapbox::{assert_data_eq, str};
+use snapbox::str;
 use std::fs;
-use std::path::Path;
 
 #[test]
 fn prints_how_far_apart_two_pictures_are() {

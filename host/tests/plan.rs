@@ -194,7 +194,7 @@ fn what_is_emitted_is_baked() {
     assert!(output.status.success());
     let plan: Plan = fs::read_to_string(&path).unwrap().parse().unwrap();
     let baked = octray(&format!("bake {scene} --plan {}", path.display()));
-    let read = octray_scenes::read(&root().join(scene)).unwrap();
+    let read = octray_scenes::read(root().join(scene)).unwrap();
     let expected = {
         let options = plan.options(&read, "figure-22").unwrap();
         bake(&read, &options).unwrap()

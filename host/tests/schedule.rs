@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{names, octray};
-use snapbox::{assert_data_eq, str};
+use common::octray;
+use snapbox::str;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -24,12 +24,12 @@ fn the_best_tiles_are_printed_for_each_number_of_processors() {
     .assert()
     .success()
     .stdout_eq(str![[r#"
-| processors | tiles |              static |             dynamic |
-|------------|---------|---------------------|---------------------|
-| 1          | strips  |        1.00 (1 row) |        1.00 (1 row) |
-| 1          | tiles   | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
-| 2          | strips  |        1.94 (1 row) |       1.98 (4 rows) |
-| 2          | tiles   | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
+| processors | tiles  |              static |             dynamic |
+|------------|--------|---------------------|---------------------|
+| 1          | strips |        1.00 (1 row) |        1.00 (1 row) |
+| 1          | tiles  | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
+| 2          | strips |        1.94 (1 row) |       1.98 (4 rows) |
+| 2          | tiles  | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
 
 "#]]);
 }

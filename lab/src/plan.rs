@@ -4,7 +4,7 @@
 //! In the order of the data: a checked [`job`]; [`accuracy`] finds by rendering how many bounces, pixels
 //! per ray and bits the picture needs; [`events`] counts what happens meanwhile, from which the [`model`]
 //! predicts instructions and memory; [`choice`] takes the cheapest arithmetic and tree that fit; and
-//! [`report`] tells it, with a remedy if nothing fits; a [`trial`] measures what came of it. The model is
+//! [`report`] tells it, with a remedy if nothing fits; a [`verify`] measures what came of it. The model is
 //! [fitted](fit) to a [`record`] of measurements, [`comb`]s among them.
 
 pub mod accuracy;

@@ -35,7 +35,7 @@ fn told_at_depth<S: Quantize>(scene: &Scene, size: (u32, u32), max_depth: u32) -
 #[test]
 fn the_figures_are_resolved_by_good_formats_only() {
     for name in FIGURES {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("{name}.scene"));
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.scene"));
         let scene = read(&file).unwrap();
         let large = (512, 512);
         assert_eq!(told::<f32>(&scene, large), None);

@@ -5,6 +5,7 @@ mod words;
 
 use crate::check::Fault;
 use crate::word::{Keyword, Span};
+use std::fmt;
 
 /// The number of mistakes that are kept; of more, only their existence is recorded.
 pub const MOST: usize = 20;
@@ -94,6 +95,22 @@ impl Diagnostics {
     }
 }
 
+/// How many mistakes there are, and where the first is. Only with the source can more be said: by
+/// [`draw`](Diagnostics::draw).
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let least = if self.more { "at least " } else { "" };
+        let plural = if self.list.len() == 1 { "" } else { "s" };
+        write!(f, "{least}{} mistake{plural} in the scene", self.list.len())?;
+        match self.list.first() {
+            Some(first) => write!(f, ", the first at byte {}", first.span.start),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
 /// Collects the mistakes that the parser finds.
 #[derive(Debug, Default)]
 pub(crate) struct Sink {
@@ -130,5 +147,16 @@ impl Sink {
         }
         list.sort_by_key(|mistake| mistake.span.start);
         Err(Diagnostics { list, more })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse;
+
+    #[test]
+    fn without_the_source_mistakes_are_counted_and_the_first_is_placed() {
+        let told = parse("  x").unwrap_err().to_string();
+        assert_eq!(told, "2 mistakes in the scene, the first at byte 2");
     }
 }

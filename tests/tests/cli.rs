@@ -424,7 +424,7 @@ fn a_sweep_over_schedules_is_told_drawn_and_written() {
         folder.path(),
         &format!("{line} -o chart.svg --csv runs.csv --hand-out 500 --per-pixel 2"),
     );
-    assert!(table.contains("| 8          | tiles   |"), "{table}");
+    assert!(table.contains("| 8          | tiles  |"), "{table}");
     let chart = fs::read_to_string(folder.path().join("chart.svg")).unwrap();
     assert!(chart.contains("How well a at 80 x 60 is shared"));
     let runs = fs::read_to_string(folder.path().join("runs.csv")).unwrap();

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 const HEIGHT: u32 = 90;
 
 /// Where the benchmark of speed has the hashes of its pictures.
-const BENCHMARK: &str = "../host/benches/pictures.csv";
+const BENCHMARK: &str = "../host/render/benches/pictures.csv";
 
 /// The most objects of a scene of the benchmark that is traced here, too.
 const MOST_OBJECTS: usize = 1000;

@@ -165,7 +165,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         self.hit(object, ray, limit, observer)
     }
 
-    /// Whether `ray` meets the object at 0 < t ≤ `limit`. On hosts by [`Shapes::shared_hit`]; on
+    /// Whether `ray` meets the object at 0 < t ≤ `limit`. On hosts by `shared_hit`; on
     /// firmware, where nothing else uses that, by a copy that says no more than this.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]

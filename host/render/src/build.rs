@@ -127,3 +127,80 @@ impl Request<'_> {
         })
     }
 }
+
+/// Saturations are counted by whoever traced: two renderings in one process are told apart.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tile::Tile;
+    use octray_core::frame::Region;
+    use octray_core::scalar::Fixed;
+    use octray_prepare::saturation::PerThread;
+    use std::thread;
+
+    /// A ball below so many lights, each of which alone fits the format.
+    fn renderer(lights: usize) -> Box<dyn Renderer> {
+        let file =
+            "v 0 0 6 at 0 0 0 up 0 1 0 angle 40 l 0 5 6 6 f 0 0 0 1 1 1 0 0 0 1 0 0 s 0 0 0 2";
+        let scene = octray_scenes::parse(file).unwrap();
+        let settings = RenderSettings {
+            size: Some((32, 24)),
+            max_depth: 2,
+            ..RenderSettings::DEFAULT
+        };
+        let mut prepared = Fixed::<28, PerThread>::quantised(&scene, &settings).unwrap();
+        prepared.scene.lights = vec![prepared.scene.lights[0]; lights];
+        let all = every_object(&prepared.scene);
+        let summary = BuildStats::of_list(all.len() as u32);
+        let request = Request {
+            scene: &scene,
+            settings: &settings,
+            format: Format::I4F28,
+        };
+        request.ready(prepared, OwnedAccelerator::BruteForce(all), summary)
+    }
+
+    /// Traces the picture's rows one by one, so that two threads are sure to be at it at once; how many results were
+    /// clamped.
+    fn saturations(renderer: &dyn Renderer) -> u64 {
+        let mut worker = renderer.worker();
+        for row in 0..24 {
+            let mut levels = [[0; 3]; 32];
+            worker.trace(Tile {
+                region: Region {
+                    columns: 0..32,
+                    rows: row..row + 1,
+                },
+                levels: &mut levels,
+                intensities: None,
+            });
+            thread::yield_now();
+        }
+        worker.saturations()
+    }
+
+    #[test]
+    fn two_renderings_in_one_process_are_told_apart() {
+        // Quantising refuses lights whose sum overflows, so that they are put in afterwards.
+        let (bright, dim) = (renderer(2), renderer(1));
+        let alone = saturations(&*bright);
+        assert!(alone > 0);
+        assert_eq!(saturations(&*dim), 0);
+        thread::scope(|scope| {
+            let bright = scope.spawn(|| saturations(&*bright));
+            let dim = scope.spawn(|| saturations(&*dim));
+            assert_eq!((bright.join().unwrap(), dim.join().unwrap()), (alone, 0));
+        });
+        // On one thread, in turns.
+        let (mut loud, mut quiet) = (bright.worker(), dim.worker());
+        for row in 0..24 {
+            for worker in [&mut loud, &mut quiet] {
+                worker.probe(&Region {
+                    columns: 0..32,
+                    rows: row..row + 1,
+                });
+            }
+        }
+        assert_eq!((loud.saturations(), quiet.saturations()), (alone, 0));
+    }
+}

@@ -397,7 +397,7 @@ mod tests {
             "f32 (best within 5,000,000 instructions)",
             "i16f16",
             "equal pictures",
-            "16 x 16 pixels, tight tree, 8 bounces, cut-off 1/512, 1 ray per pixel",
+            "16 x 16 pixels, bvh8 tree, 8 bounces, cut-off 1/512, 1 ray per pixel",
         ] {
             assert_eq!(svg.matches(text).count(), 2, "{text}");
         }

@@ -161,7 +161,7 @@ pub fn scene(name: &str, folder: &Path) -> Result<Scene, Error> {
     match generated {
         Some(scene) => Ok(scene),
         None => Ok(octray_scenes::read(
-            &folder.join(name).with_extension("scene"),
+            folder.join(name).with_extension("scene"),
         )?),
     }
 }

@@ -199,7 +199,7 @@ impl<'s> Entities<'s> {
                 Lexeme::Word if token.opens_line => break,
                 Lexeme::NotFinite => mistakes.push(MistakeKind::NotFinite, token.span()),
                 Lexeme::Malformed | Lexeme::Word => {
-                    mistakes.push(MistakeKind::NotANumber, token.span())
+                    mistakes.push(MistakeKind::NotANumber, token.span());
                 }
             }
             valid = false;
