@@ -1,5 +1,6 @@
 //! What charts and maps are drawn on: SVG or pixels, with the only font there is.
 
+mod raster;
 mod widths;
 
 use octray_render::error::Error;
@@ -35,10 +36,7 @@ pub trait Figure {
 /// # Errors
 /// When it cannot be drawn.
 pub fn svg(figure: &impl Figure) -> Result<String, Error> {
-    let mut text = String::new();
-    let backend = SVGBackend::with_string(&mut text, figure.size());
-    draw(&backend.into_drawing_area(), figure)?;
-    Ok(widths::held(&text))
+    Ok(widths::held(&drawn(figure)?))
 }
 
 /// The figure in pixels.
@@ -46,13 +44,7 @@ pub fn svg(figure: &impl Figure) -> Result<String, Error> {
 /// # Errors
 /// When it cannot be drawn, or there is no memory for it.
 pub fn picture(figure: &impl Figure) -> Result<Picture, Error> {
-    let (width, height) = figure.size();
-    let mut bytes = vec![0; 3 * width as usize * height as usize];
-    let backend = BitMapBackend::with_buffer(&mut bytes, (width, height));
-    draw(&backend.into_drawing_area(), figure)?;
-    let levels = bytes.as_chunks().0.to_vec();
-    Picture::from_levels(width, height, levels)
-        .ok_or_else(|| Error::Failed("a chart has lost pixels".into()))
+    raster::picture(&drawn(figure)?)
 }
 
 /// Whether a chart's file is to be SVG: any other name has to be a picture's.
@@ -74,21 +66,27 @@ pub fn write_figure(path: &Path, figure: &impl Figure, interrupt: &Interrupt) ->
     target.write(&picture(figure)?, RasDepth::default(), interrupt)
 }
 
-fn draw<B: DrawingBackend>(area: &Area<'_, B>, figure: &impl Figure) -> Result<(), Error> {
+fn drawn(figure: &impl Figure) -> Result<String, Error> {
     register();
     let failed = |cause| Error::Failed(format!("cannot draw a chart: {cause}"));
+    let mut text = String::new();
+    let area = SVGBackend::with_string(&mut text, figure.size()).into_drawing_area();
     area.fill(&WHITE).map_err(failed)?;
-    figure.paint(area).map_err(failed)?;
-    area.present().map_err(failed)
+    figure.paint(&area).map_err(failed)?;
+    area.present().map_err(failed)?;
+    drop(area);
+    Ok(text)
 }
+
+/// What all text is set in; its licence is in THIRD-PARTY-FONTS.md.
+const FONT: &[u8] = epaint_default_fonts::UBUNTU_LIGHT;
 
 /// The only font there is, so that figures are the same on every machine.
 fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         // It fails only on bytes that are no font.
-        let font = epaint_default_fonts::UBUNTU_LIGHT;
-        let _ = register_font("sans-serif", FontStyle::Normal, font);
+        let _ = register_font("sans-serif", FontStyle::Normal, FONT);
     });
 }
 

@@ -1,6 +1,7 @@
 //! Checks of the invariants of [`crate::model`]: what makes a scene renderable.
 
 use crate::model::{Camera, Light, Object, Point, Scene, Shape, Surface};
+use crate::point;
 use std::fmt;
 use thiserror::Error;
 
@@ -176,7 +177,7 @@ pub(crate) fn camera(camera: &Camera) -> Result<(), Fault> {
             let view = plane::unit(plane::half_difference(at, from)).ok_or(Fault::FromIsAt)?;
             let up = plane::unit(*up).ok_or(Fault::ZeroUp)?;
             ensure(
-                plane::length(plane::cross(&view, &up)) > 1e-6,
+                plane::length(point::cross(view, up)) > 1e-6,
                 Fault::UpParallel,
             )?;
             ensure(*angle > 0.0 && *angle < 180.0, Fault::Angle)

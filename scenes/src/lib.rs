@@ -26,6 +26,7 @@ pub mod diagnostic;
 pub mod generate;
 pub mod model;
 pub mod parse;
+pub mod point;
 mod word;
 pub mod write;
 

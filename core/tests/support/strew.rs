@@ -1,6 +1,7 @@
 //! Random scene files with all that the model has: every shape, both dialects, every camera.
 
 use fastrand::Rng;
+use octray_scenes::point::{add, cross, dot, times};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -445,26 +446,6 @@ impl Strew {
     }
 }
 
-fn add(a: Point, b: Point) -> Point {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
 fn sub(a: Point, b: Point) -> Point {
     add(a, times(b, -1.0))
-}
-
-fn times(a: Point, factor: f64) -> Point {
-    a.map(|c| c * factor)
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

@@ -9,7 +9,7 @@ mod png;
 mod ppm;
 mod ras;
 
-pub use format::{Format, Target, read};
+pub use format::{Format, Target, decode, read};
 pub use ras::RasDepth;
 
 use crate::tile::TileBuffer;

@@ -2,10 +2,14 @@
 
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
-use std::io::Read;
-use std::process::{Child, Command, Stdio};
-use std::thread;
+use std::fs::File;
+use std::io::{self, Read, Seek};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+use wait_timeout::ChildExt;
+
+/// How long an interrupt goes unseen at most.
+const POLL: Duration = Duration::from_millis(50);
 
 /// How a program ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,62 +45,47 @@ pub fn run(
 ) -> Result<(Ended, Told), Error> {
     let name = command.get_program().to_string_lossy().into_owned();
     let failed = |cause| Error::Failed(format!("cannot run {name}: {cause}"));
+    // Files, not pipes: a program stops when a pipe is full.
+    let (stdout, stderr) = (tempfile::tempfile(), tempfile::tempfile());
+    let (stdout, stderr) = (stdout.map_err(failed)?, stderr.map_err(failed)?);
     let mut child = (command.stdin(Stdio::null()))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
+        .stdout(stdout.try_clone().map_err(failed)?)
+        .stderr(stderr.try_clone().map_err(failed)?)
         .spawn()
         .map_err(failed)?;
-    // Pipes are read all the time, for a program stops when one is full.
-    let output = child.stdout.take().map(read);
-    let errors = child.stderr.take().map(read);
     let begin = Instant::now();
-    let mut pause = Duration::from_millis(1);
     let ended = loop {
-        if let Some(status) = child.try_wait().map_err(failed)? {
-            break status
-                .code()
-                .map_or(Ended::Killed, |code| Ended::Exited { code });
+        let left = patience.saturating_sub(begin.elapsed());
+        if let Some(status) = child.wait_timeout(left.min(POLL)).map_err(failed)? {
+            break (status.code()).map_or(Ended::Killed, |code| Ended::Exited { code });
         }
-        if interrupt.requested() {
-            stop(&mut child);
-            return Err(Error::Interrupted);
-        }
-        if begin.elapsed() > patience {
-            stop(&mut child);
+        if interrupt.requested() || left.is_zero() {
+            // What cannot be ended has ended already.
+            let _ = child.kill();
+            let _ = child.wait();
+            interrupt.check()?;
             break Ended::Late;
         }
-        thread::sleep(pause);
-        pause = (2 * pause).min(Duration::from_millis(50));
-    };
-    let text = |reader: Option<thread::JoinHandle<Vec<u8>>>| {
-        let bytes = reader.and_then(|reader| reader.join().ok());
-        String::from_utf8_lossy(&bytes.unwrap_or_default()).into_owned()
     };
     let told = Told {
-        output: text(output),
-        errors: text(errors),
+        output: text(stdout).map_err(failed)?,
+        errors: text(stderr).map_err(failed)?,
     };
     Ok((ended, told))
 }
 
-/// What cannot be ended has ended already.
-fn stop(child: &mut Child) {
-    let _ = child.kill();
-    let _ = child.wait();
-}
-
-fn read(mut pipe: impl Read + Send + 'static) -> thread::JoinHandle<Vec<u8>> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // What came before a failure is still told.
-        let _ = pipe.read_to_end(&mut bytes);
-        bytes
-    })
+/// All that was written into a file.
+fn text(mut file: File) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+    use std::thread;
 
     fn shell(script: &str, patience: Duration) -> (Ended, Told) {
         let mut command = Command::new("sh");
@@ -127,12 +116,19 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_ends_it() {
+    fn an_interrupt_ends_it_within_a_second() {
         let interrupt = Interrupt::new();
-        interrupt.request();
         let mut command = Command::new("sleep");
         command.arg("600");
-        let result = run(command, Duration::from_secs(60), &interrupt);
+        let result = thread::scope(|scope| {
+            let run = scope.spawn(|| run(command, Duration::from_secs(60), &interrupt));
+            thread::sleep(Duration::from_millis(100));
+            let begin = Instant::now();
+            interrupt.request();
+            let result = run.join().unwrap();
+            assert!(begin.elapsed() < Duration::from_secs(1));
+            result
+        });
         assert!(matches!(result, Err(Error::Interrupted)));
     }
 

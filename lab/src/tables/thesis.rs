@@ -63,7 +63,11 @@ impl Thesis {
         Self::parse(&text, &path.display().to_string())
     }
 
-    fn parse(text: &str, name: &str) -> Result<Self, Error> {
+    /// Those of a text, which is called `name` where it is not of the form.
+    ///
+    /// # Errors
+    /// [`Error::Failed`] if it is not.
+    pub fn parse(text: &str, name: &str) -> Result<Self, Error> {
         let failed = |why: &dyn std::fmt::Display| Error::Failed(format!("{name}: {why}"));
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))

@@ -1,5 +1,6 @@
 //! Random cases, the same on every machine.
 
+pub use octray_scenes::point::{add, cross, dot, times};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -41,28 +42,4 @@ impl Random {
             }
         }
     }
-}
-
-/// Returns the sum.
-pub fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-/// Returns the multiple.
-pub fn times(a: [f64; 3], factor: f64) -> [f64; 3] {
-    a.map(|c| c * factor)
-}
-
-/// Returns the cross product.
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// Returns the dot product.
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -6,6 +6,7 @@ use octray_core::camera::{Camera, Projection};
 use octray_core::frame::{Frame, Region};
 use octray_core::quantize::Quantize;
 use octray_scenes::model::{self, Point, Scene};
+use octray_scenes::point::{add, cross, dot, times};
 
 /// The camera in scene units; the picture spans −1 … 1 in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -229,26 +230,6 @@ fn active(
         columns: start(least[0], w, margin_x)..end(most[0], w, margin_x),
         rows: start(-most[1], h, margin_y)..end(-least[1], h, margin_y),
     }
-}
-
-pub(super) fn add(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|i| a[i] + b[i])
-}
-
-pub(super) fn times(a: Point, factor: f64) -> Point {
-    a.map(|c| c * factor)
-}
-
-pub(super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 pub(super) fn length(a: Point) -> f64 {

@@ -1,11 +1,12 @@
 //! Finds what is too fine for a format. A scene that fits a format can still be finer than the format's directions can
 //! resolve; then methods break (`octray stability` shows where).
 
-use super::camera::{add, length, times};
+use super::camera::length;
 use super::extent::{Extent, shape_box};
 use crate::settings::RenderSettings;
 use octray_core::quantize::Quantize;
 use octray_scenes::model::{Point, Scene, Shape};
+use octray_scenes::point::{add, times};
 use std::fmt;
 
 /// Something that is too fine for a format.

@@ -1,6 +1,6 @@
 //! Converts parsed shapes to the tracer's. Everything that can be computed beforehand is, in `f64`.
 
-use super::camera::{add, cross, dot, length, times, unit};
+use super::camera::{length, unit};
 use super::extent::shape_box;
 use super::{Placement, Quantised, down, up, vector};
 use octray_core::object::ObjectKind;
@@ -10,6 +10,7 @@ use octray_core::scene::Attributes;
 use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 use octray_scenes::model::{Object, Point, Scene, Shape};
+use octray_scenes::point::{add, cross, dot, times};
 
 impl<S: Quantize> Quantised<S> {
     /// Adds an object with its identity.

@@ -12,6 +12,7 @@
 
 use super::Fault;
 use crate::model::Point;
+use crate::point::{cross, dot};
 
 /// A polygon counts as a line if its height is at most this fraction of its longest side.
 const THINNEST: f64 = 1e-9;
@@ -39,14 +40,14 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
 
     let a = farthest(vertices.iter().map(offset));
     let size = length(a);
-    let normal = farthest(vertices.iter().map(|vertex| cross(&a, &offset(vertex))));
+    let normal = farthest(vertices.iter().map(|vertex| cross(a, offset(vertex))));
     let height = length(normal) / size;
     if height <= THINNEST * size {
         return Err(Fault::Collinear);
     }
 
     let normal = normal.map(|component| component / (height * size));
-    let distance = |vertex: &Point| dot(&normal, &offset(vertex)).abs();
+    let distance = |vertex: &Point| dot(normal, offset(vertex)).abs();
     let (vertex, distance) =
         vertices
             .iter()
@@ -89,20 +90,8 @@ pub(super) fn unit(vector: Point) -> Option<Point> {
     })
 }
 
-pub(super) fn cross(a: &Point, b: &Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 pub(super) fn length(vector: Point) -> f64 {
-    dot(&vector, &vector).sqrt()
-}
-
-fn dot(a: &Point, b: &Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    dot(vector, vector).sqrt()
 }
 
 /// Returns the largest absolute coordinate of `points`.
@@ -115,7 +104,7 @@ fn largest(points: impl Iterator<Item = Point>) -> f64 {
 /// Returns the longest of `vectors`, the first if several are equal, or zero if there are none.
 fn farthest(vectors: impl Iterator<Item = Point>) -> Point {
     vectors.fold([0.0; 3], |longest, vector| {
-        if dot(&vector, &vector) > dot(&longest, &longest) {
+        if dot(vector, vector) > dot(longest, longest) {
             vector
         } else {
             longest

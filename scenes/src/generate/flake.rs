@@ -1,8 +1,9 @@
 //! The sphere flake.
 
-use super::random::{Random, around, dot, scale, sum, unit};
+use super::random::{Random, around, unit};
 use super::stage::{PALETTE, Stage, glossy, matt};
 use crate::model::Point;
+use crate::point::{add, dot, times};
 
 struct Ball {
     centre: Point,
@@ -33,7 +34,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
         let children = slots.iter().flat_map(|&slot| {
             generation.iter().map(move |ball| {
                 let axis = around(ball.axis, turn, slot);
-                let centre = sum(ball.centre, scale(axis, ball.radius * 4.0 / 3.0));
+                let centre = add(ball.centre, times(axis, ball.radius * 4.0 / 3.0));
                 Ball {
                     centre,
                     radius: ball.radius / 3.0,

@@ -1,6 +1,7 @@
 //! Portable random numbers and directions: no function's last digit depends on the machine.
 
 use crate::model::Point;
+use crate::point::{add, cross, dot, times};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -30,7 +31,7 @@ impl Random {
             let point = [(); 3].map(|()| self.between(-1.0, 1.0));
             let square = dot(point, point);
             if (0.01..1.0).contains(&square) {
-                return scale(point, 1.0 / square.sqrt());
+                return times(point, 1.0 / square.sqrt());
             }
         }
     }
@@ -65,32 +66,12 @@ pub(super) fn across(axis: Point) -> [Point; 2] {
 pub(super) fn around(axis: Point, turn: f64, [x, y, z]: Point) -> Point {
     let [u, v] = across(axis);
     let [cos, sin] = circle(turn);
-    let plane = sum(scale(u, x * cos - y * sin), scale(v, x * sin + y * cos));
-    sum(plane, scale(axis, z))
-}
-
-pub(super) fn sum(a: Point, b: Point) -> Point {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-pub(super) fn scale(a: Point, factor: f64) -> Point {
-    a.map(|number| number * factor)
-}
-
-pub(super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    let plane = add(times(u, x * cos - y * sin), times(v, x * sin + y * cos));
+    add(plane, times(axis, z))
 }
 
 pub(super) fn unit(a: Point) -> Point {
-    scale(a, 1.0 / dot(a, a).sqrt())
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    times(a, 1.0 / dot(a, a).sqrt())
 }
 
 #[cfg(test)]

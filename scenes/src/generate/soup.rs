@@ -1,8 +1,9 @@
 //! A soup of all shapes.
 
-use super::random::{Random, across, circle, scale, sum};
+use super::random::{Random, across, circle};
 use super::stage::{PALETTE, Stage, glass, glossy, matt};
 use crate::model::Point;
+use crate::point::{add, times};
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     let ground = stage.surface(matt(PALETTE[2]));
@@ -33,7 +34,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
                 let corners = 3 + random.below(6);
                 let [u, v] = across(random.direction());
                 let polygon: Vec<Point> = ring(corners, &mut random)
-                    .map(|[x, y]| sum(centre, sum(scale(u, x * size), scale(v, y * size))))
+                    .map(|[x, y]| add(centre, add(times(u, x * size), times(v, y * size))))
                     .collect();
                 stage.polygon(surface, &polygon);
             }
@@ -44,7 +45,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
                     .enumerate()
                     .map(|(corner, [x, y])| {
                         let reach = if corner % 2 == 0 { size } else { size * 0.4 };
-                        sum(centre, sum(scale(u, x * reach), scale(v, y * reach)))
+                        add(centre, add(times(u, x * reach), times(v, y * reach)))
                     })
                     .collect();
                 stage.polygon(surface, &star);
@@ -55,9 +56,9 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
                 let corners = 3 + random.below(3);
                 let patch: Vec<(Point, Point)> = ring(corners, &mut random)
                     .map(|[x, y]| {
-                        let outward = sum(scale(u, x), scale(v, y));
-                        let normal = sum(axis, scale(outward, 0.6));
-                        (sum(centre, scale(outward, size)), normal)
+                        let outward = add(times(u, x), times(v, y));
+                        let normal = add(axis, times(outward, 0.6));
+                        (add(centre, times(outward, size)), normal)
                     })
                     .collect();
                 stage.patch(surface, &patch);
@@ -69,14 +70,14 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
 
 /// A truncated cone or cylinder, or a pointed cone if `top` is 0.
 fn cone(stage: &mut Stage, surface: u32, centre: Point, size: f64, top: f64, random: &mut Random) {
-    let half = scale(random.direction(), size * 0.8);
+    let half = times(random.direction(), size * 0.8);
     let base_radius = size * 0.5;
     let top_radius = size * if random.below(2) == 0 { top } else { top * 0.5 };
-    let base = sum(centre, scale(half, -1.0));
+    let base = add(centre, times(half, -1.0));
     stage.cone(
         surface,
         (base, base_radius),
-        (sum(centre, half), top_radius),
+        (add(centre, half), top_radius),
     );
 }
 

@@ -1,7 +1,8 @@
 //! A scene under construction.
 
-use super::random::{dot, scale, sum, unit};
+use super::random::unit;
 use crate::model::{Camera, Colour, Light, Object, Point, Projection, Scene, Shape, Surface};
+use crate::point::{add, dot, times};
 
 /// Collects objects in any order; [`Stage::finish`] sorts them by surface and sets up the rest.
 #[derive(Default)]
@@ -85,11 +86,11 @@ impl Stage {
     /// Returns the scene, seen from the direction (0.52, −0.74, 0.42), in afternoon light.
     pub(super) fn finish(self) -> Scene {
         let [low, high] = self.bounds.unwrap_or([[-1.0; 3], [1.0; 3]]);
-        let centre = scale(sum(low, high), 0.5);
-        let half = scale(sum(high, scale(low, -1.0)), 0.5);
+        let centre = times(add(low, high), 0.5);
+        let half = times(add(high, times(low, -1.0)), 0.5);
         let radius = dot(half, half).sqrt();
         let away = |direction: Point, distance: f64| {
-            rounded(sum(centre, scale(unit(direction), distance * radius)))
+            rounded(add(centre, times(unit(direction), distance * radius)))
         };
         let light = |direction, brightness| Light {
             position: away(direction, 6.0),
@@ -158,8 +159,8 @@ impl Stage {
 /// Returns a surface that scatters light.
 pub(super) fn matt(colour: Colour) -> Surface {
     Surface {
-        ambient: scale(colour, 0.12),
-        diffuse: scale(colour, 0.88),
+        ambient: times(colour, 0.12),
+        diffuse: times(colour, 0.88),
         ..Surface::default()
     }
 }
@@ -167,8 +168,8 @@ pub(super) fn matt(colour: Colour) -> Surface {
 /// Returns a matt surface with a highlight, which mirrors the share `reflect`.
 pub(super) fn glossy(colour: Colour, reflect: f64) -> Surface {
     Surface {
-        ambient: scale(colour, 0.1),
-        diffuse: scale(colour, 0.9 - reflect),
+        ambient: times(colour, 0.1),
+        diffuse: times(colour, 0.9 - reflect),
         specular: [0.5; 3],
         shine: 40.0,
         reflect,

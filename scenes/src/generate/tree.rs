@@ -1,8 +1,9 @@
 //! A tree with branches.
 
-use super::random::{Random, around, scale, sum, unit};
+use super::random::{Random, around, unit};
 use super::stage::{PALETTE, Stage, glossy, matt};
 use crate::model::Point;
+use crate::point::{add, times};
 
 /// Number of branches on each branch.
 const FORKS: usize = 3;
@@ -20,7 +21,7 @@ const TAPER: f64 = 0.62;
 
 impl Branch {
     fn tip(&self) -> Point {
-        sum(self.base, scale(self.direction, self.length))
+        add(self.base, times(self.direction, self.length))
     }
 }
 
@@ -72,7 +73,7 @@ fn grow(parent: &Branch, fork: usize, random: &mut Random) -> Branch {
     let turn = (fork as f64 + random.between(-0.3, 0.3)) / FORKS as f64;
     let lean = random.between(0.45, 0.9);
     // Branches grow towards the light.
-    let direction = sum(
+    let direction = add(
         around(parent.direction, turn, [lean, 0.0, 1.0]),
         [0.0, 0.0, 0.1],
     );

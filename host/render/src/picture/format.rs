@@ -125,7 +125,11 @@ pub fn read(path: &Path) -> Result<Picture, Error> {
         })
 }
 
-fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
+/// Reads a picture of any of the formats, told by its first bytes, from what is no file.
+///
+/// # Errors
+/// When it cannot be read or is no such picture.
+pub fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
     match input.fill_buf()? {
         [0x89, b'P', b'N', b'G', ..] => png::read(input),
         [b'P', b'6', ..] => ppm::read(input),
