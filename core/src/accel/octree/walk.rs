@@ -21,11 +21,10 @@ impl<B: BoundScalar> Octree<'_, B> {
     ) {
         let origin = query.ray.origin.map(S::to_bound);
         let inv_direction = query.ray.direction.map(S::inv_direction);
-        let enter = |node: &OctreeNode<B>, limit: B| entry_of(node, origin, inv_direction, limit);
         let Some(root) = self.nodes.first() else {
             return;
         };
-        if enter(root, query.limit.to_bound()).is_none() {
+        if entry_of(root, origin, inv_direction, query.limit.to_bound()).is_none() {
             return;
         }
         stack.0[0] = (0, B::ZERO);
@@ -52,7 +51,8 @@ impl<B: BoundScalar> Octree<'_, B> {
             let base = waiting;
             let parts = self.nodes.get(start..end).unwrap_or_default();
             for (part, place) in parts.iter().zip(node.first..) {
-                let Some(entry) = enter(part, query.limit.to_bound()) else {
+                let limit = query.limit.to_bound();
+                let Some(entry) = entry_of(part, origin, inv_direction, limit) else {
                     continue;
                 };
                 let mut at = waiting;
