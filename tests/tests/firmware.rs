@@ -10,6 +10,7 @@ use octray_core::quantize::Quantize;
 use octray_core::scalar::Fixed;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
 use octray_prepare::RenderSettings;
+use octray_prepare::plan::fingerprint;
 use octray_prepare::quantise::quantise;
 use octray_prepare::saturation::{PerThread, saturations};
 use octray_prepare::tree::{Growth, OwnedBvh8};
@@ -96,6 +97,11 @@ fn build(board: Board, job: Job) -> PathBuf {
 }
 
 fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
+    build_as(board, job, arguments, None)
+}
+
+/// As a plan says, if there is one.
+fn build_as(board: Board, job: Job, arguments: &[&str], plan: Option<&Path>) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     let (width, height) = job.size;
     let output = Command::new(env!("CARGO"))
@@ -119,6 +125,7 @@ fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
         .env_remove("OCTRAY_LEAF_SIZE")
         .env_remove("OCTRAY_COUNTS")
         .env_remove("RUSTFLAGS")
+        .env("OCTRAY_PLAN", plan.unwrap_or(Path::new("")))
         .output()
         .unwrap();
     let stderr = String::from_utf8_lossy(&output.stderr);
@@ -130,8 +137,13 @@ fn build_with(board: Board, job: Job, arguments: &[&str]) -> PathBuf {
         .join("octray-firmware")
 }
 
+<<<<<<< ours
 /// Runs it and returns its output, line by line. A run that exceeds the timeout is a failure.
 fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
+=======
+/// Runs it. A run that does not end in time is a failure.
+fn run(board: Board, firmware: &Path) -> Output {
+>>>>>>> theirs
     let mut command = Command::new(board.emulator());
     command.args(["-M", board.machine]);
     if !board.is_arm() && board.machine == "virt" {
@@ -142,9 +154,20 @@ fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
         .args(["-icount", "shift=0", "-kernel"])
         .arg(firmware);
+<<<<<<< ours
     let output = run_for(command, Duration::from_secs(120));
     let text = [&*output.stdout, &*output.stderr].concat();
     let text = String::from_utf8_lossy(&text);
+=======
+    run_for(command, Duration::from_secs(120))
+}
+
+/// Runs it; what it printed, line by line.
+fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
+    let output = run(board, firmware);
+    let told = [&*output.stdout, &*output.stderr].concat();
+    let told = String::from_utf8_lossy(&told);
+>>>>>>> theirs
     assert!(
         output.status.success(),
         "{board:?}: {}\n{text}",
@@ -369,7 +392,55 @@ fn a_tree_may_be_built_on_the_device_or_left_out() {
     }
 }
 
+<<<<<<< ours
 /// Returns the bytes of flash: everything that is loaded.
+=======
+/// A plan whose room for rays does not do: the board says so instead of showing a wrong picture.
+#[test]
+fn rays_that_find_no_room_are_reported() {
+    let _alone = alone();
+    if let Some(install) = MICROBIT.missing() {
+        eprintln!("skipped: {install}");
+        return;
+    }
+    let job = Job {
+        scene: "scenes/glass.scene",
+        arith: "i16f16",
+        size: SMALL,
+        tree: "none",
+    };
+    let scene = octray_scenes::read(root().join(job.scene)).unwrap();
+    let plan = |rays: usize| {
+        format!(
+            "scene {:016x}\narith i16f16\nsize 32x24\npixels-per-ray 1\nmax-depth 8\n\
+             cut-off 0.001953125\ntree none\nrays {rays}\n",
+            fingerprint(&scene)
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plan");
+    let run_with = |rays| {
+        fs::write(&file, plan(rays)).unwrap();
+        let output = run(MICROBIT, &build_as(MICROBIT, job, &[], Some(&file)));
+        let told = [output.stdout, output.stderr].concat();
+        let told = String::from_utf8_lossy(&told).into_owned();
+        (output.status.code(), told)
+    };
+    let (code, told) = run_with(1);
+    assert_eq!(code, Some(104), "{told}");
+    assert!(told.contains("\ndropped "), "{told}");
+    // Too little to be proved enough, and enough all the same: nothing branches more than this.
+    let (code, told) = run_with(8);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(!told.contains("dropped"), "{told}");
+    assert!(
+        told.contains(&hash_here::<Fixed<16, PerThread>>(job)),
+        "{told}"
+    );
+}
+
+/// Bytes of flash: everything that is loaded.
+>>>>>>> theirs
 fn flash(firmware: &Path) -> u64 {
     sum_sections(firmware, |name| {
         !name.starts_with(".bss") && !name.starts_with(".uninit")
