@@ -25,8 +25,12 @@ fn nobody_who_counts_costs_nothing() {
     }
     let differing: Vec<String> = observed
         .iter()
-        // The compiler may put the same instructions in another order, or registers to another use.
-        .filter(|(name, code)| unobserved.get(*name).map(Vec::len) != Some(code.len()))
+        // The compiler may put the same instructions in another order, or registers to another use. That changes the
+        // length of some instructions; a counter would add one to every loop of the walk.
+        .filter(|(name, code)| {
+            let other = unobserved.get(*name).map_or(0, Vec::len);
+            code.len() > other + other / 200
+        })
         .map(|(name, code)| {
             let other = unobserved.get(name).map(Vec::len);
             format!("{name}: {} bytes, {other:?} without", code.len())

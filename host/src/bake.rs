@@ -1,11 +1,14 @@
 //! `octray bake`: turns a scene into constant tables, Rust source for a program without a file system.
 
+#[cfg(not(feature = "lab"))]
+use crate::cli::lab::INSTALL_LAB;
 use octray_prepare::bake::{BakeOptions, bake};
 use octray_prepare::plan::Plan;
 use octray_prepare::{FirmwareTree, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+#[cfg(feature = "lab")]
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -73,11 +76,17 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
 }
 
 /// Reads a plan that `octray plan --emit` wrote.
-///
-/// # Errors
-/// If it cannot be read, or is not a plan.
-pub fn read_plan(path: &Path) -> Result<Plan, Error> {
+#[cfg(feature = "lab")]
+fn read_plan(path: &Path) -> Result<Plan, Error> {
     let text = fs::read_to_string(path).map_err(|cause| Error::read(path, cause))?;
     text.parse()
         .map_err(|why| Error::Failed(format!("{}: {why}", path.display())))
+}
+
+/// Reports how to build a command that reads plans.
+#[cfg(not(feature = "lab"))]
+fn read_plan(_: &Path) -> Result<Plan, Error> {
+    Err(Error::Usage(format!(
+        "'--plan' is an option of the laboratory: {INSTALL_LAB}"
+    )))
 }

@@ -40,6 +40,18 @@ fn commands_of_the_laboratory_report_in_one_line_how_to_get_them() {
 }
 
 #[test]
+fn a_plan_needs_the_laboratory() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/figure-19.scene");
+    let output = octray(&format!("bake {scene} --plan none"));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        text.contains("'--plan'") && text.contains("--features lab"),
+        "{text}"
+    );
+}
+
+#[test]
 fn help_lists_the_built_and_the_missing_commands() {
     let help = String::from_utf8(octray("--help").stdout).unwrap();
     let (commands, more) = help.split_once("Built with --features lab").unwrap();

@@ -5,6 +5,7 @@
 //! its [`fingerprint()`].
 //!
 //! ```
+//! # #[cfg(feature = "plan-files")] {
 //! use octray_prepare::plan::Plan;
 //!
 //! let plan: Plan = r#"
@@ -21,9 +22,11 @@
 //! "#.parse()?;
 //! assert_eq!(plan.max_depth, 3);
 //! assert_eq!(plan.to_string().parse(), Ok(plan));
+//! # }
 //! # Ok::<(), octray_prepare::plan::PlanError>(())
 //! ```
 
+#[cfg(feature = "plan-files")]
 mod file;
 
 use crate::bake::BakeOptions;
@@ -114,7 +117,7 @@ impl Plan {
     }
 }
 
-/// As [`FromStr`](std::str::FromStr) reads it.
+/// As [`FromStr`](std::str::FromStr) reads it, with feature `plan-files`.
 impl Display for Plan {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
@@ -163,13 +166,14 @@ pub enum PlanError {
     Scene,
 }
 
+#[cfg(feature = "plan-files")]
 impl From<toml::de::Error> for PlanError {
     fn from(error: toml::de::Error) -> Self {
         Self::Text(error.to_string().trim_end().into())
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "plan-files"))]
 mod tests {
     use super::*;
 

@@ -9,10 +9,11 @@ use octray_core::accel::BuildOptions;
 use octray_core::quantize::Quantize;
 use octray_core::scalar::Fixed;
 use octray_core::trace::{QueuedRay, Tracer, Workspace};
-use octray_prepare::RenderSettings;
-use octray_prepare::plan::fingerprint;
+use octray_prepare::format::Format;
+use octray_prepare::plan::{Plan, fingerprint};
 use octray_prepare::quantise::quantise;
 use octray_prepare::saturation::{PerThread, saturations};
+use octray_prepare::settings::{PixelsPerRay, RenderSettings};
 use octray_prepare::tree::{Growth, OwnedBvh8};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -137,13 +138,8 @@ fn build_as(board: Board, job: Job, arguments: &[&str], plan: Option<&Path>) -> 
         .join("octray-firmware")
 }
 
-<<<<<<< ours
-/// Runs it and returns its output, line by line. A run that exceeds the timeout is a failure.
-fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
-=======
-/// Runs it. A run that does not end in time is a failure.
+/// Runs it. A run that exceeds the timeout is a failure.
 fn run(board: Board, firmware: &Path) -> Output {
->>>>>>> theirs
     let mut command = Command::new(board.emulator());
     command.args(["-M", board.machine]);
     if !board.is_arm() && board.machine == "virt" {
@@ -154,20 +150,14 @@ fn run(board: Board, firmware: &Path) -> Output {
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
         .args(["-icount", "shift=0", "-kernel"])
         .arg(firmware);
-<<<<<<< ours
-    let output = run_for(command, Duration::from_secs(120));
-    let text = [&*output.stdout, &*output.stderr].concat();
-    let text = String::from_utf8_lossy(&text);
-=======
     run_for(command, Duration::from_secs(120))
 }
 
-/// Runs it; what it printed, line by line.
+/// Runs it and returns its output, line by line.
 fn emulate(board: Board, firmware: &Path) -> Vec<(String, String)> {
     let output = run(board, firmware);
-    let told = [&*output.stdout, &*output.stderr].concat();
-    let told = String::from_utf8_lossy(&told);
->>>>>>> theirs
+    let text = [&*output.stdout, &*output.stderr].concat();
+    let text = String::from_utf8_lossy(&text);
     assert!(
         output.status.success(),
         "{board:?}: {}\n{text}",
@@ -392,12 +382,9 @@ fn a_tree_may_be_built_on_the_device_or_left_out() {
     }
 }
 
-<<<<<<< ours
-/// Returns the bytes of flash: everything that is loaded.
-=======
-/// A plan whose room for rays does not do: the board says so instead of showing a wrong picture.
+/// If a plan has too few rays, the board reports it instead of showing a wrong picture.
 #[test]
-fn rays_that_find_no_room_are_reported() {
+fn dropped_rays_are_reported() {
     let _alone = alone();
     if let Some(install) = MICROBIT.missing() {
         eprintln!("skipped: {install}");
@@ -410,37 +397,40 @@ fn rays_that_find_no_room_are_reported() {
         tree: "none",
     };
     let scene = octray_scenes::read(root().join(job.scene)).unwrap();
-    let plan = |rays: usize| {
-        format!(
-            "scene {:016x}\narith i16f16\nsize 32x24\npixels-per-ray 1\nmax-depth 8\n\
-             cut-off 0.001953125\ntree none\nrays {rays}\n",
-            fingerprint(&scene)
-        )
-    };
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("plan");
+    let file = folder.path().join("glass.plan");
     let run_with = |rays| {
-        fs::write(&file, plan(rays)).unwrap();
+        let plan = Plan {
+            scene: fingerprint(&scene),
+            format: Format::I16F16,
+            size: SMALL,
+            pixels_per_ray: PixelsPerRay::One,
+            max_depth: 8,
+            cut_off: 1.0 / 512.0,
+            tree: None,
+            on_device: false,
+            rays,
+        };
+        fs::write(&file, plan.to_string()).unwrap();
         let output = run(MICROBIT, &build_as(MICROBIT, job, &[], Some(&file)));
-        let told = [output.stdout, output.stderr].concat();
-        let told = String::from_utf8_lossy(&told).into_owned();
-        (output.status.code(), told)
+        let text = [output.stdout, output.stderr].concat();
+        let text = String::from_utf8_lossy(&text).into_owned();
+        (output.status.code(), text)
     };
-    let (code, told) = run_with(1);
-    assert_eq!(code, Some(104), "{told}");
-    assert!(told.contains("\ndropped "), "{told}");
-    // Too little to be proved enough, and enough all the same: nothing branches more than this.
-    let (code, told) = run_with(8);
-    assert_eq!(code, Some(0), "{told}");
-    assert!(!told.contains("dropped"), "{told}");
+    let (code, text) = run_with(1);
+    assert_eq!(code, Some(104), "{text}");
+    assert!(text.contains("\ndropped "), "{text}");
+    // Fewer than are proved to be enough, but this scene branches no more than this.
+    let (code, text) = run_with(8);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(!text.contains("dropped"), "{text}");
     assert!(
-        told.contains(&hash_here::<Fixed<16, PerThread>>(job)),
-        "{told}"
+        text.contains(&hash_here::<Fixed<16, PerThread>>(job)),
+        "{text}"
     );
 }
 
-/// Bytes of flash: everything that is loaded.
->>>>>>> theirs
+/// Returns the bytes of flash: everything that is loaded.
 fn flash(firmware: &Path) -> u64 {
     sum_sections(firmware, |name| {
         !name.starts_with(".bss") && !name.starts_with(".uninit")

@@ -4,6 +4,9 @@ use clap::{Args, Subcommand};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 
+/// How to get the laboratory.
+pub const INSTALL_LAB: &str = "build it with 'cargo install --path host --features lab'";
+
 /// A command of the laboratory, which this build does not contain.
 #[derive(Debug, Subcommand)]
 pub enum LabCommand {
@@ -50,7 +53,7 @@ impl LabCommand {
         let name = format!("{self:?}").to_lowercase();
         let name = name.split('(').next().unwrap_or_default();
         Err(Error::Usage(format!(
-            "'{name}' is a command of the laboratory: build it with 'cargo install --path host --features lab'"
+            "'{name}' is a command of the laboratory: {INSTALL_LAB}"
         )))
     }
 }

@@ -227,9 +227,19 @@ fn array<T>(
     things: &[T],
     source: impl Fn(&T) -> String,
 ) -> fmt::Result {
+    array_of(f, name, of, &mut things.iter().map(source))
+}
+
+/// One function for all types of things, which would otherwise be compiled a hundred times.
+fn array_of(
+    f: &mut Formatter<'_>,
+    name: &str,
+    of: &str,
+    things: &mut dyn ExactSizeIterator<Item = String>,
+) -> fmt::Result {
     writeln!(f, "static {name}: [{of}; {}] = [", things.len())?;
     for thing in things {
-        writeln!(f, "    {},", source(thing))?;
+        writeln!(f, "    {thing},")?;
     }
     writeln!(f, "];")
 }
