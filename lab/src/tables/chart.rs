@@ -5,21 +5,22 @@ use super::shared::{Outcomes, POLICIES, Simulation};
 use crate::canvas::{Area, Drawn, Figure, write};
 use crate::simulate::Outcome;
 use octray_render::counts::thousands;
-use plotters::coord::ranged1d::SegmentValue;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-/// Pixels: the heading, a panel, and what is around its plot.
-const HEAD: u32 = 44;
-const PANEL: (u32, u32) = (344, 276);
+/// Pixels: a panel's plot, what is around it, and the heading.
+const WIDTH: i32 = 260;
+const HEIGHT: i32 = 190;
 const LEFT: i32 = 64;
 const RIGHT: i32 = 20;
 const ABOVE: i32 = 30;
-const BELOW: i32 = 48;
+const BELOW: i32 = 56;
+const HEAD: i32 = 44;
+const PANEL: (i32, i32) = (LEFT + WIDTH + RIGHT, ABOVE + HEIGHT + BELOW);
 
 /// Panels to a row.
-const COLUMNS: u32 = 3;
+const COLUMNS: i32 = 3;
 
 /// What the ideal is drawn in, and lines across.
 const PALE: RGBColor = RGBColor(110, 110, 110);
@@ -45,21 +46,26 @@ pub struct Chart<'a> {
 impl Figure for Chart<'_> {
     fn size(&self) -> (u32, u32) {
         // The legend takes the place of one more panel.
-        let panels = self.outcomes.figures.len() as u32 + 1;
-        let rows = panels.div_ceil(COLUMNS);
-        (COLUMNS * PANEL.0, HEAD + rows * PANEL.1)
+        let panels = self.outcomes.figures.len() as i32 + 1;
+        let rows = panels.unsigned_abs().div_ceil(COLUMNS.unsigned_abs());
+        let width = COLUMNS * PANEL.0;
+        (
+            width.unsigned_abs(),
+            HEAD.unsigned_abs() + rows * PANEL.1.unsigned_abs(),
+        )
     }
 
     fn paint<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B> {
         write(area, &self.title, (14, 12), 19, HPos::Left)?;
-        let mut panels = (0..).map(|i: u32| {
-            let (x, y) = (i % COLUMNS * PANEL.0, HEAD + i / COLUMNS * PANEL.1);
-            area.clone().shrink((x, y), PANEL)
-        });
-        for ((name, both), panel) in self.outcomes.figures.iter().zip(&mut panels) {
-            self.panel(&panel, name, both)?;
+        let places = (0..).map(|i| (i % COLUMNS * PANEL.0, HEAD + i / COLUMNS * PANEL.1));
+        let mut places = places.map(|(x, y)| (x + LEFT, y + ABOVE));
+        for ((name, both), place) in self.outcomes.figures.iter().zip(&mut places) {
+            self.panel(area, name, both, place)?;
         }
-        panels.next().map_or(Ok(()), |panel| self.legend(&panel))
+        match places.next() {
+            Some(place) => self.legend(area, place),
+            None => Ok(()),
+        }
     }
 }
 
@@ -94,102 +100,124 @@ impl<'a> Chart<'a> {
 }
 
 impl Chart<'_> {
-    /// A scene's panel.
+    /// A scene's panel; the place is the upper left corner of its plot.
     fn panel<B: DrawingBackend>(
         &self,
         area: &Area<'_, B>,
         name: &str,
         both: &[[Outcome; 2]],
+        (left, top): (i32, i32),
     ) -> Drawn<B> {
-        write(area, name, (LEFT, 8), 16, HPos::Left)?;
-        let across = &self.outcomes.across;
-        let line = |policy: usize| {
-            let values = both.iter().map(move |both| (self.value)(&both[policy]));
-            (0..).map(SegmentValue::CenterOf).zip(values)
+        let values = |policy: usize| both.iter().map(move |both| (self.value)(&both[policy]));
+        let ideal = self
+            .ideal
+            .then(|| self.outcomes.across.iter().map(|n| f64::from(*n)));
+        let ideal: Vec<f64> = ideal.into_iter().flatten().collect();
+        let most = (values(0).chain(values(1)).chain(ideal.iter().copied())).fold(0.0, f64::max);
+        let (step, steps) = scale(most);
+        let floor = top + HEIGHT;
+        let height = |value: f64| {
+            let share = value / (step * f64::from(steps));
+            floor - (share * f64::from(HEIGHT)).round() as i32
         };
-        let ideal = across.iter().map(|count| f64::from(*count));
-        let ideal = (0..)
-            .map(SegmentValue::CenterOf)
-            .zip(ideal.filter(|_| self.ideal));
-        let all = line(0).chain(line(1)).chain(ideal.clone());
-        let most = all.map(|(_, value)| value).fold(f64::EPSILON, f64::max);
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(ABOVE)
-            .margin_right(RIGHT)
-            .set_label_area_size(LabelAreaPosition::Left, LEFT)
-            .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-            .build_cartesian_2d((0..across.len() - 1).into_segmented(), 0.0..1.04 * most)?;
-        chart
-            .configure_mesh()
-            .disable_x_mesh()
-            .max_light_lines(0)
-            .bold_line_style(GRID)
-            .x_labels(across.len())
-            .x_label_formatter(&|at| match at {
-                SegmentValue::CenterOf(i) => across[*i].to_string(),
-                _ => String::new(),
-            })
-            .x_desc(self.across)
-            .y_labels(7)
-            .y_label_formatter(&|value| label(*value))
-            .label_style(("sans-serif", 13))
-            .axis_desc_style(("sans-serif", 14))
-            .draw()?;
-        chart.draw_series(LineSeries::new(ideal, PALE))?;
-        chart.draw_series(DashedLineSeries::new(line(0), 6, 4, BLACK.into()))?;
-        chart.draw_series(line(0).map(|at| EmptyElement::at(at) + disc(0) + rim(0)))?;
-        chart.draw_series(LineSeries::new(line(1), BLACK.stroke_width(2)))?;
-        chart.draw_series(line(1).map(|at| EmptyElement::at(at) + square(0)))?;
+        let place = |i: usize| {
+            let gaps = self.outcomes.across.len().max(2) as i32 - 1;
+            left + 12 + i as i32 * (WIDTH - 24) / gaps
+        };
+        write(area, name, (left, top - 22), 16, HPos::Left)?;
+        for i in 0..=steps {
+            let value = f64::from(i) * step;
+            let y = height(value);
+            area.draw(&PathElement::new([(left, y), (left + WIDTH, y)], GRID))?;
+            write(area, &label(value), (left - 6, y - 7), 13, HPos::Right)?;
+        }
+        for (i, across) in self.outcomes.across.iter().enumerate() {
+            let x = place(i);
+            area.draw(&PathElement::new([(x, floor), (x, floor + 4)], BLACK))?;
+            write(area, &across.to_string(), (x, floor + 6), 13, HPos::Center)?;
+        }
+        area.draw(&PathElement::new(
+            [(left, floor), (left + WIDTH, floor)],
+            BLACK,
+        ))?;
+        let middle = left + WIDTH / 2;
+        write(area, self.across, (middle, floor + 24), 14, HPos::Center)?;
+        let line = |values: &mut dyn Iterator<Item = f64>| -> Vec<(i32, i32)> {
+            values
+                .enumerate()
+                .map(|(i, value)| (place(i), height(value)))
+                .collect()
+        };
+        if !ideal.is_empty() {
+            area.draw(&PathElement::new(line(&mut ideal.into_iter()), PALE))?;
+        }
+        for policy in 0..POLICIES.len() {
+            curve(area, policy, line(&mut values(policy)))?;
+        }
         Ok(())
     }
 
-    fn legend<B: DrawingBackend>(&self, area: &Area<'_, B>) -> Drawn<B> {
-        write(area, self.upwards, (LEFT, 8), 16, HPos::Left)?;
-        let area = area.clone().shrink((LEFT, ABOVE), PANEL);
-        let mut chart = ChartBuilder::on(&area).build_cartesian_2d(0..1, 0..1)?;
-        let nothing = || LineSeries::new(std::iter::empty(), BLACK);
-        chart
-            .draw_series(nothing())?
-            .label(POLICIES[0].name())
-            .legend(|at| {
-                let line = DashedPathElement::new([(0, 0), (60, 0)], 6, 4, BLACK);
-                EmptyElement::at(at) + line + disc(30) + rim(30)
-            });
-        chart
-            .draw_series(nothing())?
-            .label(POLICIES[1].name())
-            .legend(|at| {
-                let line = PathElement::new([(0, 0), (60, 0)], BLACK.stroke_width(2));
-                EmptyElement::at(at) + line + square(30)
-            });
-        if self.ideal {
-            chart
-                .draw_series(nothing())?
-                .label("as many as there are processors")
-                .legend(|(x, y)| PathElement::new([(x, y), (x + 60, y)], PALE));
+    fn legend<B: DrawingBackend>(&self, area: &Area<'_, B>, (left, top): (i32, i32)) -> Drawn<B> {
+        write(area, self.upwards, (left, top - 22), 16, HPos::Left)?;
+        for (policy, y) in (0..POLICIES.len()).zip((top + 16..).step_by(28)) {
+            curve(area, policy, [0, 30, 60].map(|x| (left + x, y)).to_vec())?;
+            write(
+                area,
+                POLICIES[policy].name(),
+                (left + 74, y - 8),
+                15,
+                HPos::Left,
+            )?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .legend_area_size(74)
-            .label_font(("sans-serif", 15))
-            .draw()
+        if self.ideal {
+            let y = top + 16 + 28 * POLICIES.len() as i32;
+            area.draw(&PathElement::new([(left, y), (left + 60, y)], PALE))?;
+            write(
+                area,
+                "as many as there are processors",
+                (left + 74, y - 8),
+                15,
+                HPos::Left,
+            )?;
+        }
+        Ok(())
     }
 }
 
-/// What marks static dealing: a white disc with a rim.
-fn disc(x: i32) -> Circle<(i32, i32), i32> {
-    Circle::new((x, 0), 5, WHITE.filled())
+/// Static dealing is dashed with hollow circles, dynamic dealing has full squares.
+fn curve<B: DrawingBackend>(
+    area: &Area<'_, B>,
+    policy: usize,
+    points: Vec<(i32, i32)>,
+) -> Drawn<B> {
+    if policy == 0 {
+        area.draw(&DashedPathElement::new(points.clone(), 6, 4, BLACK))?;
+        for point in points {
+            area.draw(&Circle::new(point, 5, WHITE.filled()))?;
+            area.draw(&Circle::new(point, 5, BLACK))?;
+        }
+        return Ok(());
+    }
+    area.draw(&PathElement::new(points.clone(), BLACK.stroke_width(2)))?;
+    for (x, y) in points {
+        area.draw(&Rectangle::new(
+            [(x - 3, y - 3), (x + 3, y + 3)],
+            BLACK.filled(),
+        ))?;
+    }
+    Ok(())
 }
 
-/// The rim of the disc.
-fn rim(x: i32) -> Circle<(i32, i32), i32> {
-    Circle::new((x, 0), 5, BLACK)
-}
-
-/// What marks dynamic dealing.
-fn square(x: i32) -> Rectangle<(i32, i32)> {
-    Rectangle::new([(x - 3, -3), (x + 3, 3)], BLACK.filled())
+/// A round step (1, 2 or 5 times a power of ten), and how many of them hold a value: 4 to 10.
+fn scale(most: f64) -> (f64, u32) {
+    if most <= 0.0 {
+        return (1.0, 1);
+    }
+    let decade = 10f64.powf((most / 4.0).log10().floor());
+    let steps = [5.0, 2.0, 1.0].map(|digit| digit * decade);
+    let fits = |step: &f64| most / step >= 4.0 - 1e-9;
+    let step = steps.into_iter().find(fits).unwrap_or(decade);
+    (step, (most / step - 1e-9).ceil() as u32)
 }
 
 /// A step's value.
@@ -206,6 +234,20 @@ mod tests {
     use crate::canvas;
     use crate::simulate::Machine;
     use std::num::NonZeroU32;
+
+    #[test]
+    fn steps_are_round_and_enough() {
+        assert_eq!(scale(8.0), (2.0, 4));
+        assert_eq!(scale(7.0), (1.0, 7));
+        assert_eq!(scale(123.0), (20.0, 7));
+        assert_eq!(scale(0.0), (1.0, 1));
+        for i in 1..2000 {
+            let most = f64::from(i) * 0.37;
+            let (step, steps) = scale(most);
+            assert!((4..=10).contains(&steps), "{most}: {steps} of {step}");
+            assert!(step * f64::from(steps) >= most * (1.0 - 1e-9), "{most}");
+        }
+    }
 
     #[test]
     fn a_chart_names_its_scenes_and_policies() {
