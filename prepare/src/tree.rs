@@ -171,7 +171,7 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
     }
 }
 
-/// Returns every object once, for [`octray_core::octree::List`].
+/// Returns every object once, for [`octray_core::accel::BruteForce`].
 pub fn every_object<S: Quantize>(scene: &Quantised<S>) -> Vec<ObjectRef> {
     scene.shapes().refs().collect()
 }
