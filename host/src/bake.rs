@@ -38,6 +38,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
     }
+    let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
     let scene = octray_scenes::read(&job.scene)?;
     interrupt.check()?;
     let name = job
@@ -46,7 +47,6 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .unwrap_or_default()
         .to_string_lossy()
         .into_owned();
-    let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
     let options = match &plan {
         Some(plan) => plan
             .options(&scene, &name)
