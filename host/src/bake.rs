@@ -38,7 +38,8 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
     }
-    let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
+    let read = |path| Ok((path, read_plan(path)?));
+    let plan = job.plan.as_deref().map(read).transpose()?;
     let scene = octray_scenes::read(&job.scene)?;
     interrupt.check()?;
     let name = job
@@ -48,9 +49,9 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         .to_string_lossy()
         .into_owned();
     let options = match &plan {
-        Some(plan) => plan
+        Some((path, plan)) => plan
             .options(&scene, &name)
-            .map_err(|why| Error::Failed(why.to_string()))?,
+            .map_err(|why| Error::Failed(format!("{}: {why}", path.display())))?,
         None => {
             let mut settings = job.settings;
             let format = settings.arith.format(&scene, settings.max_depth);

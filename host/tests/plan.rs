@@ -208,7 +208,8 @@ fn what_is_emitted_is_baked() {
     ));
     let stderr = String::from_utf8_lossy(&other.stderr);
     assert_eq!(other.status.code(), Some(1));
-    assert!(stderr.contains("made for another scene"), "{stderr}");
+    let message = format!("{}: plan: made for another scene", path.display());
+    assert!(stderr.contains(&message), "{stderr}");
     assert!(other.stdout.is_empty());
     let wrong = octray(&format!("bake {scene} --plan {scene}"));
     assert_eq!(wrong.status.code(), Some(1));

@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn without_the_source_mistakes_are_counted_and_the_first_is_placed() {
-        let told = parse("  x").unwrap_err().to_string();
-        assert_eq!(told, "2 mistakes in the scene, the first at byte 2");
+        let message = parse("  x").unwrap_err().to_string();
+        assert_eq!(message, "2 mistakes in the scene, the first at byte 2");
     }
 }

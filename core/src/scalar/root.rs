@@ -21,7 +21,7 @@ pub(super) fn sqrt_f32(x: f32) -> f32 {
 #[unsafe(naked)]
 extern "C" fn vsqrt(_x: f32) -> f32 {
     // SAFETY: it changes s0 alone, and returns to its caller.
-    // The instruction is vsqrt.f32 s0, s0, written as a number: the assembler is not told here that
+    // The instruction is vsqrt.f32 s0, s0, written as a number: the assembler does not know here that
     // the target has a floating-point unit.
     core::arch::naked_asm!(".inst.w 0xeeb10ac0", "bx lr")
 }

@@ -195,11 +195,11 @@ impl Wrong {
     pub(crate) fn report(&self, name: &str) {
         println!("{name}: {} rays, {} hits", self.rays, self.hits);
         assert!(self.rays >= 1_000_000 && self.hits * 4 > self.rays);
-        let told: Vec<String> = self
+        let differing: Vec<String> = self
             .by_tree
             .iter()
             .map(|(tree, (count, first))| format!("{tree}: {count} rays differ, first {first}"))
             .collect();
-        assert!(told.is_empty(), "{name}\n{}", told.join("\n"));
+        assert!(differing.is_empty(), "{name}\n{}", differing.join("\n"));
     }
 }

@@ -41,7 +41,7 @@ pub enum Color {
     Bw,
 }
 
-/// What to draw, and on what. Everything is in the ranges told in the help.
+/// What to draw, and on what. Everything is in the ranges that the help names.
 #[derive(Clone, Debug)]
 pub struct PanelJob {
     /// The scene file.
@@ -115,18 +115,18 @@ where
         });
         tracing += begin.elapsed();
     })?;
-    let told = overlay::text(
+    let caption = overlay::text(
         renderer.built().format.name(),
         worker.counters().all_rays(),
         tracing.as_secs_f64(),
     );
     if job.overlay {
-        screen.overlay(&told)?;
+        screen.overlay(&caption)?;
     }
     job.output
         .write(&screen.picture()?, Default::default(), interrupt)?;
     output::write_stdout(interrupt, |out| {
-        writeln!(out, "{}: {told}", job.output.path.display())
+        writeln!(out, "{}: {caption}", job.output.path.display())
     })?;
     screen.wait()
 }

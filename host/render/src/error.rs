@@ -41,7 +41,7 @@ pub enum Error {
     /// Two pictures differ by more than the bounds given; one sentence for each bound.
     #[error("{}", .0.join("\n"))]
     Bounds(Vec<String>),
-    /// Work that was accepted could not be done, for the reason told.
+    /// Work that was accepted could not be done, for this reason.
     #[error("{0}")]
     Failed(String),
     /// The work was asked to stop.

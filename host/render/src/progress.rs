@@ -1,6 +1,6 @@
 //! How far the work is.
 
-/// Is told how far the work is, from any thread. `()` tells nobody.
+/// Receives how far the work is, from any thread. `()` ignores it.
 pub trait Progress: Sync {
     /// There are so many steps, none of them done.
     fn start(&self, steps: usize);

@@ -1,7 +1,7 @@
 //! Texts of an SVG, as wide as they were measured.
 //!
 //! What shows an SVG has other fonts than the one that figures are laid out in, and wider letters would run
-//! into what stands beside them. So each text is told its width, and letters are squeezed into it.
+//! into what stands beside them. So each text carries its width, and letters are squeezed into it.
 
 use plotters::style::{FontDesc, FontFamily, FontStyle};
 use std::fmt::Write;

@@ -27,11 +27,11 @@ impl Callgrind {
     /// # Errors
     /// [`Error::Failed`] with how to install it.
     pub fn find() -> Result<Self, Error> {
-        let told = Command::new("valgrind")
+        let version = Command::new("valgrind")
             .arg("--version")
             .stdin(Stdio::null())
             .output();
-        if !told.is_ok_and(|told| told.status.success()) {
+        if !version.is_ok_and(|output| output.status.success()) {
             return Err(Error::Failed(
                 "valgrind is missing, which counts instructions: apt-get install valgrind, \
                  or see https://valgrind.org"
@@ -65,10 +65,10 @@ impl Callgrind {
             .args(setting.render_arguments())
             .arg("--output")
             .args([&picture, scene]);
-        let (ended, told) = child::run(command, PATIENCE, interrupt)?;
+        let (ended, output) = child::run(command, PATIENCE, interrupt)?;
         if ended != (Ended::Exited { code: 0 }) {
-            let last = told.errors.trim().lines().next_back();
-            let why = last.unwrap_or("nothing was told");
+            let last = output.stderr.trim().lines().next_back();
+            let why = last.unwrap_or("it wrote nothing");
             return Ok(Err(format!("not counted: {why}")));
         }
         let report = fs::read_to_string(&file).map_err(|cause| Error::read(&file, cause))?;
@@ -78,7 +78,7 @@ impl Callgrind {
     }
 }
 
-/// What Callgrind is told: to count nothing but tracing.
+/// Makes Callgrind count nothing but tracing.
 fn arguments(file: &Path) -> [String; 3] {
     [
         "--tool=callgrind".into(),

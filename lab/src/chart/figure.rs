@@ -27,7 +27,7 @@ const FAINT: RGBColor = RGBColor(105, 105, 105);
 const WISH: RGBColor = RGBColor(150, 150, 150);
 const FRONTIER: RGBColor = RGBColor(30, 90, 170);
 
-/// Told of the line on which pictures equal what accuracy is relative to.
+/// Label of the line of pictures that equal the reference.
 const EQUAL: &str = "equal pictures";
 
 /// The chart of some panels, one below the other.

@@ -25,13 +25,13 @@ pub enum Ended {
     Late,
 }
 
-/// What it told.
+/// What it wrote.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Told {
+pub struct Output {
     /// On standard output.
-    pub output: String,
+    pub stdout: String,
     /// On standard error.
-    pub errors: String,
+    pub stderr: String,
 }
 
 /// Runs a program to its end, or to the end of patience.
@@ -42,7 +42,7 @@ pub fn run(
     mut command: Command,
     patience: Duration,
     interrupt: &Interrupt,
-) -> Result<(Ended, Told), Error> {
+) -> Result<(Ended, Output), Error> {
     let name = command.get_program().to_string_lossy().into_owned();
     let failed = |cause| Error::Failed(format!("cannot run {name}: {cause}"));
     // Files, not pipes: a program stops when a pipe is full.
@@ -67,11 +67,11 @@ pub fn run(
             break Ended::Late;
         }
     };
-    let told = Told {
-        output: text(stdout).map_err(failed)?,
-        errors: text(stderr).map_err(failed)?,
+    let written = Output {
+        stdout: text(stdout).map_err(failed)?,
+        stderr: text(stderr).map_err(failed)?,
     };
-    Ok((ended, told))
+    Ok((ended, written))
 }
 
 /// All that was written into a file.
@@ -87,26 +87,26 @@ mod tests {
     use super::*;
     use std::thread;
 
-    fn shell(script: &str, patience: Duration) -> (Ended, Told) {
+    fn shell(script: &str, patience: Duration) -> (Ended, Output) {
         let mut command = Command::new("sh");
         command.args(["-c", script]);
         run(command, patience, &Interrupt::new()).unwrap()
     }
 
     #[test]
-    fn how_a_program_ends_and_what_it_tells() {
+    fn how_a_program_ends_and_what_it_writes() {
         let long = Duration::from_secs(60);
-        let (ended, told) = shell("echo a; echo b >&2; exit 7", long);
+        let (ended, output) = shell("echo a; echo b >&2; exit 7", long);
         assert_eq!(ended, Ended::Exited { code: 7 });
-        assert_eq!((&*told.output, &*told.errors), ("a\n", "b\n"));
+        assert_eq!((&*output.stdout, &*output.stderr), ("a\n", "b\n"));
         assert_eq!(shell("kill -9 $$", long).0, Ended::Killed);
     }
 
     #[test]
     fn more_than_a_pipe_holds_does_not_stop_it() {
-        let (ended, told) = shell("head -c 300000 /dev/zero", Duration::from_secs(60));
+        let (ended, output) = shell("head -c 300000 /dev/zero", Duration::from_secs(60));
         assert_eq!(ended, Ended::Exited { code: 0 });
-        assert_eq!(told.output.len(), 300_000);
+        assert_eq!(output.stdout.len(), 300_000);
     }
 
     #[test]

@@ -59,7 +59,7 @@ impl Emulator<'_> {
             .arg("-kernel")
             .arg(program);
         let (ended, output) = child::run(command, self.patience, interrupt)?;
-        let text = [output.output, output.errors].concat();
+        let text = [output.stdout, output.stderr].concat();
         if let Some(why) = failure(ended, &text, self.patience) {
             return Ok(Err(why));
         }

@@ -116,9 +116,9 @@ impl SourceTree {
         command.envs(program.variables.iter().copied());
         let (ended, output) = child::run(command, PATIENCE, interrupt)?;
         if ended != (Ended::Exited { code: 0 }) {
-            return Ok(Err(complaint(&output.errors)));
+            return Ok(Err(complaint(&output.stderr)));
         }
-        artifact(&output.output, program.artifact)
+        artifact(&output.stdout, program.artifact)
             .map(Ok)
             .ok_or_else(|| {
                 Error::Failed(format!(
