@@ -38,7 +38,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
     }
-    let read = |path| Ok((path, read_plan(path)?));
+    let read = |path| read_plan(path).map(|plan| (path, plan));
     let plan = job.plan.as_deref().map(read).transpose()?;
     let scene = octray_scenes::read(&job.scene)?;
     interrupt.check()?;
