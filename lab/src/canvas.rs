@@ -6,7 +6,7 @@ mod widths;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
-use octray_render::picture::{Picture, RasDepth, Target};
+use octray_render::picture::{Format, Picture, RasDepth, Target};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -63,7 +63,16 @@ pub fn write_figure(path: &Path, figure: &impl Figure, interrupt: &Interrupt) ->
         return output::write_file(path, interrupt, |out| out.write_all(text.as_bytes()));
     }
     let target = Target::new(path.into()).map_err(Error::Usage)?;
-    target.write(&picture(figure)?, RasDepth::default(), interrupt)
+    let picture = picture(figure)?;
+    match target.format {
+        Format::Png => {
+            let png = picture
+                .png()
+                .map_err(|cause| Error::Failed(format!("no PNG: {cause}")))?;
+            output::write_file(path, interrupt, |out| out.write_all(&png))
+        }
+        _ => target.write(&picture, RasDepth::default(), interrupt),
+    }
 }
 
 fn drawn(figure: &impl Figure) -> Result<String, Error> {

@@ -137,13 +137,13 @@ impl Picture {
         hasher.finish()
     }
 
-    /// The levels as the bytes of a PNG file.
+    /// The levels as the bytes of a PNG file, as small as is worth the time. [`Target::write`] is faster, and compresses less.
     ///
     /// # Errors
     /// If the encoder refuses the picture's size.
     pub fn png(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        png::write(self, &mut bytes)?;
+        png::write(self, png::Compression::Balanced, &mut bytes)?;
         Ok(bytes)
     }
 }

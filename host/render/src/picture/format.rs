@@ -105,7 +105,7 @@ fn encode(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match format {
-        Format::Png => png::write(picture, out),
+        Format::Png => png::write(picture, png::Compression::Fast, out),
         Format::Ppm => ppm::write(picture, out),
         Format::Pfm => pfm::write(picture, out),
         Format::Ras => ras::write(picture, ras_depth, out),

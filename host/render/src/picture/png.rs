@@ -2,14 +2,23 @@
 
 use super::Picture;
 use super::malformed::malformed;
+pub(super) use png::Compression;
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use std::io::{self, BufRead, Cursor, Write};
 
 /// Write the levels.
-pub(super) fn write(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
+///
+/// Rendered pictures take a tenth more with `Compression::Fast` than with `Balanced`, in a twentieth of the time; drawings
+/// take four times as much.
+pub(super) fn write(
+    picture: &Picture,
+    compression: Compression,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let mut encoder = Encoder::new(out, picture.width(), picture.height());
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(compression);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(picture.levels().as_flattened())?;
     writer.finish()?;
