@@ -3,6 +3,8 @@
 
 #[path = "support/forest.rs"]
 mod forest;
+#[path = "support/meshes.rs"]
+mod meshes;
 #[path = "support/rays.rs"]
 mod rays;
 #[allow(dead_code, unreachable_pub, reason = "other tests share it")]
@@ -11,6 +13,7 @@ mod strew;
 
 use fastrand::Rng;
 use forest::{Forest, Wrong};
+use meshes::Mesh;
 use octray_core::accel::{Accelerator, BruteForce};
 use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
@@ -23,6 +26,7 @@ use octray_prepare::RenderSettings;
 use octray_prepare::quantise::{Prepared, Quantised, quantise};
 use octray_prepare::saturation::PerThread;
 use octray_scenes::generate::{SceneKind, Spec};
+use octray_scenes::model::Scene;
 use rays::{Rays, sign};
 
 /// Scenes in each arithmetic, and rays in each scene: more than a million rays in all.
@@ -38,6 +42,10 @@ macro_rules! in_every_arithmetic {
         mod no_ray_panics {
             use super::*;
             $(#[test] fn $name() { no_ray_panics::<$s>(); })*
+        }
+        mod no_ray_passes_between {
+            use super::*;
+            $(#[test] fn $name() { no_ray_passes_between::<$s>(); })*
         }
     };
 }
@@ -104,6 +112,30 @@ fn no_ray_panics<S: Quantize>() {
     }
 }
 
+/// Polygons that share an edge leave no gap there, in any tree.
+fn no_ray_passes_between<S: Quantize>() {
+    let mut wrong = Wrong::default();
+    let mut first = None;
+    for seed in 0..180 {
+        let mesh = Mesh::new(seed);
+        let prepared = parsed::<S>(&mesh.text);
+        let forest = Forest::new(&prepared.scene, seed);
+        let mut rng = Rng::with_seed(seed);
+        for number in 0..400 {
+            let ray = mesh.ray::<S>(&prepared.placement, &mut rng);
+            let case = format!("mesh {seed}, ray {number}");
+            let hits = wrong.hits;
+            forest.compare(&ray, &mut rng, &mut wrong, &case);
+            if wrong.hits == hits {
+                first.get_or_insert(format!("{case}: {ray:?}"));
+            }
+        }
+    }
+    let missed = wrong.rays - wrong.hits;
+    assert_eq!(missed, 0, "of {} rays; first {first:?}", wrong.rays);
+    wrong.agree(S::NAME);
+}
+
 /// What a tracer works with.
 struct Memory<S: Quantize> {
     rays: Vec<QueuedRay<S>>,
@@ -160,19 +192,25 @@ fn extreme<S: Quantize>(rng: &mut Rng) -> S {
 }
 
 fn prepare<S: Quantize>(seed: u64) -> Prepared<S> {
-    let scene = if seed % 8 == 7 {
-        let spec = Spec {
-            kind: SceneKind::Soup,
-            objects: 10 + seed as usize % 90,
-        };
-        octray_scenes::generate(spec, seed)
-    } else {
-        let text = strew::objects(seed);
-        octray_scenes::parse(&text).unwrap_or_else(|e| panic!("{}", e.draw("strewn", &text)))
+    if seed % 8 != 7 {
+        return parsed(&strew::objects(seed));
+    }
+    let spec = Spec {
+        kind: SceneKind::Soup,
+        objects: 10 + seed as usize % 90,
     };
+    quantised(&octray_scenes::generate(spec, seed))
+}
+
+fn parsed<S: Quantize>(text: &str) -> Prepared<S> {
+    let scene = octray_scenes::parse(text);
+    quantised(&scene.unwrap_or_else(|error| panic!("{}", error.draw("strewn", text))))
+}
+
+fn quantised<S: Quantize>(scene: &Scene) -> Prepared<S> {
     let view = RenderSettings {
         size: Some((8, 8)),
         ..RenderSettings::DEFAULT
     };
-    quantise::<S>(&scene, &view).expect("the scene fits every format")
+    quantise::<S>(scene, &view).expect("the scene fits every format")
 }

@@ -9,6 +9,7 @@
 
 mod camera;
 mod extent;
+mod plane;
 mod resolution;
 mod shapes;
 

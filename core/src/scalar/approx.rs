@@ -143,6 +143,17 @@ impl<const N: u32> Tolerance for Approx<N> {
     }
 
     #[inline(always)]
+    fn hit_error(reach: Self, slack: Self) -> Self {
+        // Twice the error of an approximate reciprocal.
+        let error = match N {
+            0 => 1.0 / 4.0,
+            1 => 1.0 / 64.0,
+            _ => 1.0 / 8192.0,
+        };
+        Self(reach.0 * error).min(slack)
+    }
+
+    #[inline(always)]
     fn with_rounding_margin(self) -> Self {
         Self(self.0.with_rounding_margin())
     }

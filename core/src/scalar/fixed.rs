@@ -284,6 +284,12 @@ impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
         // Rounding is absolute here, but for a curved shape's normal, which has F bits.
         Self::from_bits((curvature_extent.0 >> (F - 2)).wrapping_add(8))
     }
+
+    #[inline(always)]
+    fn hit_error(reach: Self, slack: Self) -> Self {
+        // Normals and directions have F bits, and are multiplied by coordinates; a step for each of four roundings.
+        Scalar::min(Self::from_bits((reach.0 >> F).wrapping_add(4)), slack)
+    }
 }
 
 impl<const F: u32, C: SaturationCounter> Ratio for Fixed<F, C> {

@@ -95,6 +95,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn hit_error(reach: Self, slack: Self) -> Self {
+                Scalar::min(reach * (16.0 * $t::EPSILON), slack)
+            }
+
+            #[inline(always)]
             fn with_rounding_margin(self) -> Self {
                 // Four roundings.
                 self * (1.0 + 2.0 * $t::EPSILON)

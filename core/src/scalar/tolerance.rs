@@ -27,6 +27,11 @@ pub trait Tolerance: Scalar {
     /// Self-Intersection", Ray Tracing Gems, 2019).
     fn surface_error(position: Self, curvature_extent: Self) -> Self;
 
+    /// A bound on how far the computed point at which a ray meets a plane, not at a grazing angle, can lie from the true
+    /// one. `reach` is the largest coordinate of the ray's origin and of the point; `slack`, the scene's, is never
+    /// exceeded.
+    fn hit_error(reach: Self, slack: Self) -> Self;
+
     /// Rounds a distance ≥ 0 up by the maximum rounding error, where rounding is relative (Ize,
     /// "Robust BVH Ray Traversal", JCGT 2013): which of two planes is met first does not hang on a
     /// last bit then. In fixed point quotients are rounded to absolute steps, and two that differ by

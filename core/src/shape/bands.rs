@@ -38,6 +38,6 @@ pub struct Outlines<'a, S> {
     pub corners: &'a [[S; 2]],
     /// Where each band's edges begin in `edges`, and after a polygon's last band where they end.
     pub bands: &'a [u32],
-    /// Edges, band by band, lower end first; level ones are left out.
+    /// Edges, band by band, lower end first.
     pub edges: &'a [[[S; 2]; 2]],
 }

@@ -146,8 +146,10 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         let i = object.index();
         match object.kind() {
             ObjectKind::Sphere => self.sphere(i)?.hit(ray, limit, self.slack),
-            ObjectKind::Triangle => self.triangle(i)?.hit(ray, limit),
-            ObjectKind::Polygon => self.polygon(i)?.hit(ray, limit, &self.outlines(), observer),
+            ObjectKind::Triangle => self.triangle(i)?.hit(ray, limit, self.slack),
+            ObjectKind::Polygon => {
+                (self.polygon(i)?).hit(ray, limit, self.slack, &self.outlines(), observer)
+            }
             ObjectKind::Cone => self.cone(i)?.hit(ray, limit, observer),
             ObjectKind::Cuboid => self.cuboid(i)?.hit(ray, limit, self.slack),
         }
@@ -188,7 +190,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         let i = object.index();
         let bounds = match object.kind() {
             ObjectKind::Sphere => self.sphere(i).map(|s| s.bounds(self.slack)),
-            ObjectKind::Triangle => self.triangle(i).map(Triangle::bounds),
+            ObjectKind::Triangle => self.triangle(i).map(|t| t.bounds(self.slack)),
             ObjectKind::Polygon => self.polygon(i).map(|p| p.bounds),
             ObjectKind::Cone => self.cone(i).map(|c| c.bounds),
             ObjectKind::Cuboid => self.cuboid(i).map(|c| c.bounds(self.slack)),

@@ -73,7 +73,8 @@ impl Queries {
         };
         for answer in &self.0 {
             let corner = place(answer.point);
-            paint_point(area, corner, answer.truth, answer.found[form])?;
+            let found = answer.found[form];
+            paint_point(area, corner, answer.truth.unwrap_or(found), found)?;
         }
         let mut outline = STAR
             .map(|corner| {

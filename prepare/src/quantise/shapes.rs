@@ -1,8 +1,8 @@
 //! Converts parsed shapes to the tracer's. Everything that can be computed beforehand is, in `f64`.
 
-use super::camera::{length, unit};
+use super::camera::length;
 use super::extent::shape_box;
-use super::{Placement, Quantised, down, up, vector};
+use super::{Placement, Quantised, down, plane, up, vector};
 use octray_core::object::ObjectKind;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Aabb;
@@ -10,7 +10,7 @@ use octray_core::scene::Attributes;
 use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 use octray_scenes::model::{Object, Point, Scene, Shape};
-use octray_scenes::point::{add, cross, dot, times};
+use octray_scenes::point::{add, dot, times};
 
 impl<S: Quantize> Quantised<S> {
     /// Adds an object with its identity.
@@ -101,7 +101,7 @@ impl<S: Quantize> Quantised<S> {
         }
     }
 
-    /// Adds a triangle or a polygon. Its plane passes through the vertices' middle along Newell's normal; vertices that
+    /// Adds a triangle or a polygon. Its plane passes through the vertices' middle; vertices that
     /// are off the plane (a file has few digits) widen the box.
     fn polygon(&mut self, scene: &Scene, first: u32, count: u32, place: &Placement) -> ObjectKind {
         let vertices = &scene.vertices[first as usize..][..count as usize];
@@ -110,10 +110,7 @@ impl<S: Quantize> Quantised<S> {
             1.0 / f64::from(count),
         );
         let from_middle = |v: Point| add(v, times(middle, -1.0));
-        let next = vertices.iter().cycle().skip(1);
-        let normal = unit(vertices.iter().zip(next).fold([0.0; 3], |sum, (a, b)| {
-            add(sum, cross(from_middle(*a), from_middle(*b)))
-        }));
+        let normal = plane::normal(vertices, middle);
         let off_plane = vertices
             .iter()
             .map(|v| dot(normal, from_middle(*v)).abs())
@@ -175,7 +172,6 @@ impl<S: Quantize> Quantised<S> {
             scale: (bounds.high[v] - low).reciprocal(),
         };
         let edges: Vec<_> = (corners.iter().zip(corners.iter().cycle().skip(1)))
-            .filter(|(a, b)| a[1] != b[1])
             .map(|(a, b)| if a[1] < b[1] { [*a, *b] } else { [*b, *a] })
             .collect();
         loop {
@@ -183,7 +179,10 @@ impl<S: Quantize> Quantised<S> {
                 bands.count = 0;
                 return bands;
             }
-            let passed = |edge: &[[S; 2]; 2]| bands.of(edge[0][1])..=bands.of(edge[1][1]);
+            // With the rim in which an edge counts as met.
+            let slack = self.slack;
+            let passed =
+                |edge: &[[S; 2]; 2]| bands.of(edge[0][1] - slack)..=bands.of(edge[1][1] + slack);
             let all: usize = edges.iter().map(|edge| passed(edge).count()).sum();
             if all > 8 * corners.len() {
                 bands.count /= 2;

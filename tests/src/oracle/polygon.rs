@@ -22,10 +22,17 @@ impl Polygon {
         let double_area = edges(&vertices)
             .map(|(a, b)| (a - first).cross(b - first))
             .fold(V3::ZERO, |sum, cross| sum + cross);
+        // The largest triangle of the first vertex and two others, where lobes cancel in the sum.
+        let largest = vertices
+            .iter()
+            .flat_map(|&a| vertices.iter().map(move |&b| (a - first).cross(b - first)))
+            .max_by(|a, b| a.length().total_cmp(&b.length()))
+            .unwrap_or(double_area);
+        let cancels = double_area.length() < 1e-3 * largest.length();
         Self {
             vertices,
             normals,
-            normal: double_area.unit(),
+            normal: if cancels { largest } else { double_area }.unit(),
         }
     }
 
@@ -35,7 +42,7 @@ impl Polygon {
         (t > 0.0 && t.is_finite() && self.contains(ray.at(t))).then_some(t)
     }
 
-    /// Returns whether a point of the plane is inside, by the even-odd rule.
+    /// Returns whether a point of the plane is inside, by the even-odd rule, or on an edge but for rounding.
     ///
     /// The polygon is projected along the largest component of its normal. An edge counts if the line from the point in
     /// the direction of growing u crosses it. It owns its lower end (in v) but not its upper end.
@@ -53,7 +60,13 @@ impl Polygon {
             let share = (point[v] - low[v]) / (high[v] - low[v]);
             point[u] < low[u] + (high[u] - low[u]) * share
         };
-        edges(&self.vertices).filter(crosses).count() % 2 == 1
+        let on_edge = |(a, b): (V3, V3)| {
+            let along = b - a;
+            let share = (point - a).dot(along) / along.dot(along);
+            let nearest = a + along * share.clamp(0.0, 1.0);
+            (point - nearest).length() <= 1e-13 * (point.length() + along.length())
+        };
+        edges(&self.vertices).filter(crosses).count() % 2 == 1 || edges(&self.vertices).any(on_edge)
     }
 
     /// Returns the unit normal for shading at a point: on a patch, interpolated over the triangle of the fan that

@@ -10,8 +10,8 @@ use crate::scalar::Scalar;
 use crate::shape::{Cone, Plane, Polygon, Shapes, Triangle, encloses};
 use crate::vec3::{Axis, Vec3, vec3};
 
-/// Whether `object` belongs into the cell. All tests take the cell wider by the scene's slack,
-/// which bounds how far a computed hit lies off its surface.
+/// Whether `object` belongs into the cell. All tests take the cell wider by twice the scene's slack: once
+/// bounds how far a computed hit lies off its surface, and polygons have a rim of about that width.
 pub(super) fn overlaps<S: AccelScalar>(
     shapes: &Shapes<'_, S>,
     object: ObjectRef,
@@ -25,7 +25,8 @@ pub(super) fn overlaps<S: AccelScalar>(
     if !overlap || link == LinkBy::Box {
         return overlap;
     }
-    let slack = vec3(shapes.slack, shapes.slack, shapes.slack);
+    let slack = shapes.slack + shapes.slack;
+    let slack = vec3(slack, slack, slack);
     let cell = Aabb {
         low: cell.low.map(S::from_bound) - slack,
         high: cell.high.map(S::from_bound) + slack,

@@ -189,6 +189,11 @@ impl<C: SaturationCounter> Tolerance for Fixed64<C> {
     fn surface_error(_: Self, curvature_extent: Self) -> Self {
         Self::from_bits((curvature_extent.0 >> 28).wrapping_add(16))
     }
+
+    #[inline(always)]
+    fn hit_error(reach: Self, slack: Self) -> Self {
+        Scalar::min(Self::from_bits((reach.0 >> F).wrapping_add(4)), slack)
+    }
 }
 
 impl<C: SaturationCounter> Ratio for Fixed64<C> {
