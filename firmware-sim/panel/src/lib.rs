@@ -101,7 +101,7 @@ where
         panel: &mut screen,
         ordered: job.dither,
     };
-    let mut worker = renderer.worker();
+    let mut worker = renderer.worker(interrupt);
     let mut strip = vec![[0; 3]; (width * ROWS) as usize];
     // Not the time that the simulated panel takes.
     let mut tracing = std::time::Duration::ZERO;

@@ -52,6 +52,7 @@ pub mod scheduler;
 pub mod stats;
 pub mod threads;
 pub mod tile;
+mod watch;
 
 pub use error::Error;
 pub use octray_prepare::{Arith, Format, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
