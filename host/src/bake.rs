@@ -8,6 +8,7 @@ use octray_prepare::{FirmwareTree, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 #[cfg(feature = "lab")]
 use std::fs;
 use std::io::{self, Write};
@@ -39,7 +40,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
         output::probe(path)?;
     }
     let plan = job.plan.as_ref().map(|path| read_plan(path)).transpose()?;
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     interrupt.check()?;
     let name = job
         .scene

@@ -18,6 +18,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::picture::Target;
 use octray_render::renderer;
+use octray_render::scene_file;
 use octray_render::tile::Tile;
 use screen::Screen;
 use std::path::PathBuf;
@@ -83,7 +84,7 @@ where
     C: PanelColor + Into<Rgb888> + From<Rgb888>,
 {
     output::probe(&job.output.path)?;
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let (width, height) = job.panel;
     let settings = RenderSettings {
         arith: job.arith,

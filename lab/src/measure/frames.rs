@@ -14,6 +14,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
 use octray_render::render::Rendering;
+use octray_render::scene_file;
 use octray_scenes::model::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ impl NamedScene {
     /// # Errors
     /// If it cannot be read, or has mistakes.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let scene = octray_scenes::read(path)?;
+        let scene = scene_file::read(path)?;
         let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self {
