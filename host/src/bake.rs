@@ -8,6 +8,7 @@ use octray_prepare::{FirmwareTree, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 #[cfg(feature = "lab")]
 use std::fs;
 use std::io::{self, Write};
@@ -40,7 +41,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
     let read = |path| read_plan(path).map(|plan| (path, plan));
     let plan = job.plan.as_deref().map(read).transpose()?;
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     interrupt.check()?;
     let name = job
         .scene

@@ -4,6 +4,7 @@ use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 use std::path::PathBuf;
 
 /// Reads each scene and prints one line per scene with its contents.
@@ -14,7 +15,7 @@ pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
     let mut refused = Vec::new();
     for path in scenes {
         interrupt.check()?;
-        match octray_scenes::read(path).map_err(Error::from) {
+        match scene_file::read(path) {
             Ok(scene) => output::write_stdout(interrupt, |out| {
                 let (name, facts) = (path.display(), SceneCounts::of(&scene));
                 writeln!(

@@ -10,6 +10,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use octray_render::render::{self, Rendering};
+use octray_render::scene_file;
 use octray_render::stats::Rays;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
@@ -47,7 +48,7 @@ pub fn run(
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let parse = begin.elapsed();
     interrupt.check()?;
     let progress = Bar::new("tracing");

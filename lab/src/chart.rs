@@ -96,6 +96,7 @@ pub struct Judged {
     path: PathBuf,
     scene: NamedScene,
     outcomes: Vec<(RenderSettings, Result<Accuracy, String>)>,
+    unexplored: Option<String>,
 }
 
 /// Measures the distance of every picture of every scene.
@@ -119,10 +120,12 @@ pub fn judge(
                 Ok((*setting, accuracy))
             })
             .collect::<Result<_, Error>>()?;
+        let unexplored = judge.unexplored().map(Into::into);
         Ok(Judged {
             path,
             scene,
             outcomes,
+            unexplored,
         })
     };
     scenes.into_iter().map(judged).collect()
@@ -176,12 +179,10 @@ impl Judged {
             });
             (*setting, measured)
         });
-        Ok(Panel::new(
-            &self.scene.name,
-            &self.path,
-            kind,
-            job,
-            measured.collect(),
-        ))
+        let path = &self.path;
+        Ok(Panel {
+            unexplored: self.unexplored.clone(),
+            ..Panel::new(&self.scene.name, path, kind, job, measured.collect())
+        })
     }
 }

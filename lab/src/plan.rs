@@ -28,6 +28,7 @@ use model::Model;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 use octray_scenes::model::Scene;
 use report::PlanReport;
 
@@ -40,7 +41,7 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.emit {
         output::probe(path)?;
     }
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let mut report = plan(job, &scene, interrupt)?;
     let fits = report.failures.is_empty();
     if let (true, true, Some(plan), Some(cost)) = (job.measure, fits, &report.plan, &report.cost) {

@@ -44,6 +44,9 @@ pub enum Error {
     /// Work that was accepted could not be done, for this reason.
     #[error("{0}")]
     Failed(String),
+    /// The picture takes more rays than this, the budget of the work.
+    #[error("the picture takes more than {} rays, not counting shadow rays", crate::counts::thousands(*.0))]
+    TooManyRays(u64),
     /// The work was asked to stop.
     #[error("interrupted")]
     Interrupted,

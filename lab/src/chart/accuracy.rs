@@ -2,6 +2,7 @@
 
 use super::ChartJob;
 use super::setting::Setting;
+use crate::budget;
 use octray_prepare::format::Format;
 use octray_prepare::{Arith, RenderSettings};
 use octray_render::error::Error;
@@ -53,6 +54,7 @@ pub struct Judge<'a> {
     scene: &'a Scene,
     interrupt: &'a Interrupt,
     converged: Picture,
+    unexplored: Option<String>,
     exact: Vec<Exact>,
 }
 
@@ -72,7 +74,8 @@ impl<'a> Judge<'a> {
     /// Renders the converged picture: f64, many rays per pixel, and bounces as long as they change anything.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`]; [`Error::TooManyRays`] if the
+    /// picture takes too many even without bounces.
     pub fn new(scene: &'a Scene, job: &ChartJob, interrupt: &'a Interrupt) -> Result<Self, Error> {
         let converged = RenderSettings {
             arith: Arith::F64,
@@ -82,17 +85,33 @@ impl<'a> Judge<'a> {
             samples: job.converged_samples,
             ..RenderSettings::DEFAULT
         };
-        let renderer = build(scene, &converged)?;
+        let budget = budget::rays(job.size, job.converged_samples);
+        let (explored, picture) = budget::deepest(CONVERGED_DEPTH, |max_depth| {
+            let renderer = build(
+                scene,
+                &RenderSettings {
+                    max_depth,
+                    ..converged
+                },
+            )?;
+            render(&*renderer, &interrupt.with_budget(budget))
+        })?;
         Ok(Self {
             scene,
             interrupt,
-            converged: render(&*renderer, interrupt)?,
+            converged: picture,
+            unexplored: budget::unexplored(explored, CONVERGED_DEPTH, budget),
             exact: Vec::new(),
         })
     }
 
+    /// The bounces that the converged picture lacks because they take too many rays, in words, if any.
+    pub fn unexplored(&self) -> Option<&str> {
+        self.unexplored.as_deref()
+    }
+
     /// How far off the picture with these settings is; in words if the scene does not fit the arithmetic or
-    /// the tree.
+    /// the tree, or takes too many rays.
     ///
     /// # Errors
     /// [`Error::Interrupted`], or if f64 itself fails.
@@ -104,9 +123,16 @@ impl<'a> Judge<'a> {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,
         };
-        let picture = render(&*renderer, self.interrupt)?;
+        let budget = budget::rays(renderer.built().size, setting.samples);
+        let picture = match render(&*renderer, &self.interrupt.with_budget(2 * budget)) {
+            Err(Error::TooManyRays(rays)) => return Ok(Err(Error::TooManyRays(rays).to_string())),
+            other => other?,
+        };
         let converged = Difference::between(&self.converged, &picture)?;
-        let exact = self.exact(setting.in_f64())?;
+        let exact = match self.exact(setting.in_f64(), budget) {
+            Err(Error::TooManyRays(rays)) => return Ok(Err(Error::TooManyRays(rays).to_string())),
+            other => other?,
+        };
         Ok(Ok(Accuracy {
             format: renderer.built().format,
             same: Difference::between(&exact.picture, &picture)?,
@@ -116,7 +142,7 @@ impl<'a> Judge<'a> {
     }
 
     /// The picture with these settings, rendered if it has not been yet.
-    fn exact(&mut self, setting: RenderSettings) -> Result<&Exact, Error> {
+    fn exact(&mut self, setting: RenderSettings, budget: u64) -> Result<&Exact, Error> {
         let known = self.exact.iter().position(|exact| exact.setting == setting);
         let index = match known {
             Some(index) => index,
@@ -124,7 +150,7 @@ impl<'a> Judge<'a> {
                 let renderer = build(self.scene, &setting)?;
                 self.exact.push(Exact {
                     setting,
-                    picture: render(&*renderer, self.interrupt)?,
+                    picture: render(&*renderer, &self.interrupt.with_budget(budget))?,
                     renderer,
                 });
                 self.exact.len() - 1
@@ -149,7 +175,8 @@ fn render(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Picture, Err
 /// What the rays of two pictures with the same settings meet first.
 fn sight(exact: &dyn Renderer, renderer: &dyn Renderer, samples: u32) -> Sight {
     let built = renderer.built();
-    let (mut truth, mut seen) = (exact.worker(), renderer.worker());
+    let interrupt = Interrupt::new();
+    let (mut truth, mut seen) = (exact.worker(&interrupt), renderer.worker(&interrupt));
     let (mut blocks, mut others, mut depth) = (0_u64, 0_u64, 0.0_f64);
     let per_block = (samples * samples) as usize;
     for row in (0..built.size.1).step_by(built.block as usize) {

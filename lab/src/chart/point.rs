@@ -102,6 +102,8 @@ pub struct Panel {
     pub points: Vec<Point>,
     /// The settings without a point.
     pub refused: Vec<Refused>,
+    /// The bounces that the converged picture lacks, in words, if any.
+    pub unexplored: Option<String>,
     /// What was chosen.
     pub choices: Vec<Chosen>,
 }
@@ -124,6 +126,7 @@ impl Panel {
             wishes: job.wishes,
             points: Vec::new(),
             refused: Vec::new(),
+            unexplored: None,
             choices: Vec::new(),
         };
         for (setting, outcome) in measured {

@@ -141,7 +141,8 @@ impl Probe {
     /// Traces a plan in its own arithmetic and with its own tree, on all cores.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`];
+    /// [`Error::TooManyRays`] if it takes more than the budget of `interrupt`.
     pub fn render(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Self, Error> {
         let renderer = renderer::prepare(scene, &plan.settings())?;
         Self::trace(&*renderer, scene, interrupt)

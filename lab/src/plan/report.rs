@@ -29,6 +29,8 @@ pub struct PlanReport {
     pub cost: Option<Cost>,
     /// The measurement, if there was one.
     pub trial: Option<Verification>,
+    /// The bounces that were not explored, in words, if any.
+    pub unexplored: Option<String>,
     /// Which limits fail, by how much, and with which options the plan fits.
     pub failures: Vec<String>,
     /// The plan.
@@ -46,6 +48,7 @@ impl PlanReport {
             tried: accuracy.tried.clone(),
             cost: None,
             trial: None,
+            unexplored: accuracy.unexplored.clone(),
             failures: Vec::new(),
             plan: None,
         }
