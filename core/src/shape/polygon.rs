@@ -6,7 +6,6 @@ use super::plane::Plane;
 use crate::observe::Observer;
 use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, Tolerance};
-use crate::vec3::Vec3;
 
 /// A polygon of any number of vertices, convex or not.
 #[derive(Clone, Copy, Debug)]
@@ -43,28 +42,31 @@ impl<S: Tolerance> Polygon<S> {
         let inside = if self.bands.count == 0 {
             let corners = self.corners(outlines.corners)?;
             observer.edges(corners.len());
-            encloses(corners, p) || self.on_outline(corners, ray, point, slack)
+            encloses(corners, p) || self.on_outline(corners, ray, t, slack)
         } else {
             let band = (self.bands.first + self.bands.of(p[1])) as usize;
             let (start, end) = (outlines.bands.get(band)?, outlines.bands.get(band + 1)?);
             let edges = outlines.edges.get(*start as usize..*end as usize)?;
             observer.edges(edges.len());
             let odd = (edges.iter()).fold(false, |odd, edge| odd ^ crosses_upward(*edge, p));
-            odd || self.on_edge(edges, ray, point, slack)
+            odd || self.on_edge(edges, ray, t, slack)
         };
         inside.then_some(t)
     }
 
-    /// Whether a point of the plane lies on an outline but for rounding. Not inlined: few tests get this far.
+    /// Whether a ray meets the plane on an outline but for rounding. Not inlined, and with as few operands as can be: the
+    /// walks keep more in registers.
     #[inline(never)]
-    fn on_outline(&self, corners: &[[S; 2]], ray: &Ray<S>, point: Vec3<S>, slack: S) -> bool {
+    fn on_outline(&self, corners: &[[S; 2]], ray: &Ray<S>, t: S, slack: S) -> bool {
+        let point = ray.at(t);
         let near = Near::new(ray, point, self.plane.project(point), slack);
         edges_of(corners).any(|edge| near.meets(edge))
     }
 
     /// The same for some of its edges.
     #[inline(never)]
-    fn on_edge(&self, edges: &[[[S; 2]; 2]], ray: &Ray<S>, point: Vec3<S>, slack: S) -> bool {
+    fn on_edge(&self, edges: &[[[S; 2]; 2]], ray: &Ray<S>, t: S, slack: S) -> bool {
+        let point = ray.at(t);
         let near = Near::new(ray, point, self.plane.project(point), slack);
         edges.iter().any(|&edge| near.meets(edge))
     }

@@ -25,29 +25,35 @@ impl<S: Tolerance> Triangle<S> {
         let point = ray.at(t);
         let p = self.plane.project(point);
         let [a, b, c] = self.corners;
-        let odd = crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p);
+        if !(crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p)) {
+            return self.on_edge(ray, t, slack).then_some(t);
+        }
         // Rounding must not let the parity be odd outside the triangle's own box.
-        let depth = point[self.plane.axis];
-        let in_box = self.range(0, slack).contains(p[0])
-            && self.range(1, slack).contains(p[1])
-            && self.depth[0] <= depth
-            && depth <= self.depth[1];
-        let hit = in_box && (odd || self.on_edge(ray, point, slack));
-        hit.then_some(t)
+        let inside = self.range(0).contains(p[0])
+            && self.range(1).contains(p[1])
+            && self.depth_contains(point);
+        inside.then_some(t)
     }
 
-    /// Whether a point of the plane lies on an edge but for rounding. Not inlined: tests that fail seldom get this far.
+    /// Whether a ray meets the plane on an edge but for rounding. Not inlined, and with as few operands as can be: the
+    /// walks keep more in registers.
     #[inline(never)]
-    fn on_edge(&self, ray: &Ray<S>, point: Vec3<S>, slack: S) -> bool {
+    fn on_edge(&self, ray: &Ray<S>, t: S, slack: S) -> bool {
+        let point = ray.at(t);
         let near = Near::new(ray, point, self.plane.project(point), slack);
-        edges_of(&self.corners).any(|edge| near.meets(edge))
+        self.depth_contains(point) && edges_of(&self.corners).any(|edge| near.meets(edge))
     }
 
     #[inline(always)]
-    fn range(&self, i: usize, slack: S) -> Range<S> {
+    fn depth_contains(&self, point: Vec3<S>) -> bool {
+        let depth = point[self.plane.axis];
+        self.depth[0] <= depth && depth <= self.depth[1]
+    }
+
+    #[inline(always)]
+    fn range(&self, i: usize) -> Range<S> {
         let [a, b, c] = self.corners;
-        let (low, high) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-        Range(low - slack, high + slack)
+        Range(a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]))
     }
 
     /// The box that all hits lie in.
@@ -55,9 +61,9 @@ impl<S: Tolerance> Triangle<S> {
         let (u, v) = self.plane.axis.others();
         let mut bounds = Aabb::default();
         for (axis, i) in [(u, 0), (v, 1)] {
-            let Range(low, high) = self.range(i, slack);
-            bounds.low[axis] = low;
-            bounds.high[axis] = high;
+            let Range(low, high) = self.range(i);
+            bounds.low[axis] = low - slack;
+            bounds.high[axis] = high + slack;
         }
         bounds.low[self.plane.axis] = self.depth[0];
         bounds.high[self.plane.axis] = self.depth[1];
