@@ -337,6 +337,6 @@ mod tests {
             [0, 1, 2].map(|depth| picture(depth) == exact),
             [true, false, true]
         );
-        assert_eq!(scope.depth(&exact).unwrap(), 2);
+        assert_eq!(scope.depth(&exact, RenderSettings::DEEPEST).unwrap(), 2);
     }
 }
