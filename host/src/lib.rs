@@ -22,6 +22,7 @@ use clap::Parser;
 use cli::{Cli, Command};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
+use octray_scenes::name;
 use signal::Signals;
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -87,6 +88,19 @@ fn exit_code(error: &Error) -> ExitCode {
     })
 }
 
+/// A message as a terminal may show it: whatever a file contains of which it tells, no line commands the terminal, and none
+/// is endless.
+fn readable(message: &str) -> String {
+    const LONGEST: usize = 400;
+    let shortened = message
+        .split('\n')
+        .map(|line| match line.char_indices().nth(LONGEST) {
+            Some((end, _)) => name::line(&line[..end]) + "...",
+            None => name::line(line),
+        });
+    shortened.collect::<Vec<_>>().join("\n")
+}
+
 /// Writes a failure to standard error, in the form in which bad arguments are reported.
 fn report_error(error: &Error) {
     let mut stderr = io::stderr().lock();
@@ -102,6 +116,6 @@ fn report_error(error: &Error) {
             stderr,
             "error: {error}\n\nFor more information, try '--help'."
         ),
-        _ => writeln!(stderr, "error: {error}"),
+        _ => writeln!(stderr, "error: {}", readable(&error.to_string())),
     };
 }

@@ -55,10 +55,13 @@ pub fn run(
     let traced = trace(&scene, job, &progress, interrupt)?;
     drop(progress);
     interrupt.check()?;
+    if !scene.objects.is_empty() && traced.counters.hits[RayKind::Primary as usize] == 0 {
+        scene_file::note(scene_file::NOTHING_IN_SIGHT);
+    }
     job.output
         .write(&traced.picture, job.ras_depth, interrupt)?;
     let stats = stats(job, &scene, &traced, parse);
-    output::write_stdout(interrupt, |out| match job.stats {
+    output::write_report([&job.output.path], interrupt, |out| match job.stats {
         StatsFormat::None => Ok(()),
         StatsFormat::Text => write!(out, "{}", Summary(&stats)),
         StatsFormat::Json => {

@@ -75,7 +75,8 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         canvas::write_figure(path, &Chart::of(&panels), interrupt)?;
     }
-    output::write_stdout(interrupt, |out| {
+    let results = job.output.iter().chain(&job.csv).chain(&job.json);
+    output::write_report(results, interrupt, |out| {
         out.write_all(report::text(&panels).as_bytes())
     })
 }

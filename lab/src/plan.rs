@@ -48,7 +48,7 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
         let trial = verify::run(&job.scene, &scene, plan, cost, job.board, interrupt)?;
         report.trial = Some(trial);
     }
-    output::write_stdout(interrupt, |out| match job.json {
+    output::write_report(&job.emit, interrupt, |out| match job.json {
         true => {
             serde_json::to_writer_pretty(&mut *out, &report)?;
             writeln!(out)
@@ -94,6 +94,9 @@ fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<PlanRe
         model: &model,
     };
     let accuracy = scope.accuracy(job.numbers)?;
+    if accuracy.full.hits() == 0.0 && !scene.objects.is_empty() {
+        scene_file::note(scene_file::NOTHING_IN_SIGHT);
+    }
     let candidates = chooser.candidates(&accuracy)?;
     match choose(&candidates, &job.limits) {
         None => Ok(PlanReport::inaccurate(job, &accuracy)),

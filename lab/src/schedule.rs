@@ -87,14 +87,16 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
         let chart = Chart::new(title, &runs, &job.policies, &job.shapes, &job.processors);
         canvas::write_figure(path, &chart, interrupt)?;
     }
-    output::write_stdout(interrupt, |out| match job.json {
+    let results = job.csv.iter().chain(&job.chart);
+    output::write_report(results, interrupt, |out| match job.json {
         true => {
             let total = map.total();
             let scene = job.scene.display().to_string();
             let object = serde_json::json!({"scene": scene, "instructions": total, "runs": runs});
             writeln!(out, "{object}")
         }
-        false => writeln!(out, "{}", table(job, &runs)),
+        false if map.total() > 0.0 => writeln!(out, "{}", table(job, &runs)),
+        false => writeln!(out, "nothing to share: {}", scene_file::NOTHING_IN_SIGHT),
     })
 }
 

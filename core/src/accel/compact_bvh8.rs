@@ -71,13 +71,14 @@ impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
     /// constant context, too.
     ///
     /// # Errors
-    /// If a walk could need more room than `ROOM`: nodes would be left out without a word.
+    /// If a walk could need more room than `ROOM`, for nodes would be left out without a word; or if the words and
+    /// links are not those of a tree, for its walk might have no end.
     pub const fn new(
         words: &'a [u32],
         links: &'a [ObjectRef],
         tick: u32,
     ) -> Result<Self, StackTooSmall> {
-        let needed = room::required(words);
+        let needed = room::required(words, links);
         if needed > ROOM {
             return Err(StackTooSmall { needed });
         }
@@ -102,6 +103,6 @@ impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
     /// The most nodes and leaves that can ever wait, whatever the ray: the least `ROOM` that
     /// [`CompactBvh8::new`] accepts.
     pub const fn required_stack(&self) -> usize {
-        room::required(self.words)
+        room::required(self.words, self.links)
     }
 }

@@ -20,6 +20,7 @@ use octray_render::picture::Target;
 use octray_render::renderer;
 use octray_render::scene_file;
 use octray_render::tile::Tile;
+use octray_scenes::name::Shown;
 use screen::Screen;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -126,8 +127,8 @@ where
     }
     job.output
         .write(&screen.picture()?, Default::default(), interrupt)?;
-    output::write_stdout(interrupt, |out| {
-        writeln!(out, "{}: {caption}", job.output.path.display())
+    output::write_report([&job.output.path], interrupt, |out| {
+        writeln!(out, "{}: {caption}", Shown(&job.output.path))
     })?;
     screen.wait()
 }

@@ -1,5 +1,6 @@
 //! What can go wrong.
 
+use octray_scenes::name::Shown;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +15,7 @@ pub enum Error {
     #[error("{0}")]
     Scene(String),
     /// A file could not be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", Shown(path))]
     Read {
         /// The file as the user named it.
         path: PathBuf,
@@ -22,7 +23,7 @@ pub enum Error {
         source: io::Error,
     },
     /// A file could not be written; nothing is left behind.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}", Shown(path))]
     Write {
         /// The file as the user named it.
         path: PathBuf,

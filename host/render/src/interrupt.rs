@@ -71,3 +71,30 @@ impl Budget {
         self.traced.load(Ordering::Relaxed) > self.most
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spent_budget_stops_only_its_own_work() {
+        let interrupt = Interrupt::new();
+        let limited = interrupt.with_budget(10);
+        assert!(!limited.spend(10));
+        limited.check().unwrap();
+        assert!(limited.clone().spend(1));
+        assert!(matches!(limited.check(), Err(Error::TooManyRays(10))));
+        assert!(!limited.requested());
+        interrupt.check().unwrap();
+        interrupt.with_budget(10).check().unwrap();
+    }
+
+    #[test]
+    fn a_request_reaches_all_work_with_a_budget() {
+        let interrupt = Interrupt::new();
+        let limited = interrupt.with_budget(10);
+        interrupt.request();
+        assert!(matches!(limited.check(), Err(Error::Interrupted)));
+        assert!(limited.spend(0));
+    }
+}

@@ -30,7 +30,7 @@
 //! | [`scene_file`] | reads scenes for commands, telling their warnings |
 //! | [`metric`], [`heat`] | how far apart two pictures are, in numbers and as a picture |
 //! | [`counts`] | what is in a scene, counted |
-//! | [`interrupt`], [`progress`], [`error`] | a request to stop, how far the work is, what can go wrong |
+//! | [`interrupt`], [`progress`], [`error`] | a request to stop and a budget of rays, how far the work is, what can go wrong |
 
 mod build;
 mod cache_padded;

@@ -113,6 +113,21 @@ pub fn write_stdout(
     })
 }
 
+/// Write a report by calling `fill`: to standard output, or to standard error if a result goes to standard output.
+///
+/// # Errors
+/// As [`write_stdout`].
+pub fn write_report<'a>(
+    results: impl IntoIterator<Item = &'a PathBuf>,
+    interrupt: &Interrupt,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    match results.into_iter().any(|path| is_stdout(path)) {
+        true => through(io::stderr().lock(), interrupt, fill).map_err(Error::Stdout),
+        false => write_stdout(interrupt, fill),
+    }
+}
+
 /// Where the bytes of a file go.
 enum Sink {
     /// Beside the target, under another name.

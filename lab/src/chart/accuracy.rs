@@ -3,6 +3,7 @@
 use super::ChartJob;
 use super::setting::Setting;
 use crate::budget;
+use octray_core::observe::RayKind;
 use octray_prepare::format::Format;
 use octray_prepare::{Arith, RenderSettings};
 use octray_render::error::Error;
@@ -11,6 +12,7 @@ use octray_render::metric::Difference;
 use octray_render::picture::Picture;
 use octray_render::render::render_tiles;
 use octray_render::renderer::{self, FirstHit, Renderer};
+use octray_render::scene_file;
 use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 
@@ -94,8 +96,15 @@ impl<'a> Judge<'a> {
                     ..converged
                 },
             )?;
-            render(&*renderer, &interrupt.with_budget(budget))
+            let interrupt = interrupt.with_budget(budget);
+            let rendered = render_tiles(&*renderer, &Schedule::default(), false, &(), &interrupt)?;
+            let hits = rendered.1.hits[RayKind::Primary as usize];
+            Ok((rendered.0, hits))
         })?;
+        let (picture, hits) = picture;
+        if hits == 0 && !scene.objects.is_empty() {
+            scene_file::note(scene_file::NOTHING_IN_SIGHT);
+        }
         Ok(Self {
             scene,
             interrupt,

@@ -9,6 +9,7 @@ use crate::measure::emulate::Emulator;
 use crate::measure::frames::{Bench, NamedScene, SEARCH};
 use crate::measure::job::{FirmwareOptions, Goal, MeasureJob};
 use crate::measure::source_tree::SourceTree;
+use crate::plan::choice::PER_PIXEL;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
 use octray_render::cost;
 use octray_render::counts::thousands;
@@ -261,7 +262,9 @@ fn events(scene: &Scene, setting: &RenderSettings, interrupt: &Interrupt) -> Res
     let mut worker = renderer.worker(interrupt);
     worker.probe(&renderer.built().active);
     interrupt.check()?;
-    Ok(cost::cost(worker.counters()))
+    let (width, height) = renderer.built().size;
+    let background = PER_PIXEL * f64::from(width) * f64::from(height);
+    Ok(cost::cost(worker.counters()).max(background))
 }
 
 fn time(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<f64, Error> {

@@ -238,6 +238,13 @@ pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%@".contains(c);
     if word.chars().all(plain) && !word.is_empty() {
         word.into()
+    } else if word.chars().any(char::is_control) {
+        let escaped = word.chars().map(|c| match c {
+            '\'' | '\\' => format!("\\{c}"),
+            c if c.is_control() => format!("\\u{:04x}", u32::from(c)),
+            c => c.into(),
+        });
+        format!("$'{}'", escaped.collect::<String>())
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
@@ -341,6 +348,11 @@ pub(super) mod tests {
         assert_eq!(chosen(2), Some("approx1"));
         assert_eq!(panel.points[1].chosen_as, ["fastest ≥ 40 dB", "knee"]);
         assert_eq!(panel.refused[0].label, "i4f28");
+    }
+
+    #[test]
+    fn a_word_with_control_characters_stays_one_word_on_one_line() {
+        assert_eq!(quoted("a'b\n\u{1b}"), r"$'a\'b\u000a\u001b'");
     }
 
     #[test]

@@ -16,6 +16,7 @@ use octray_render::progress::Progress;
 use octray_render::render::Rendering;
 use octray_render::scene_file;
 use octray_scenes::model::Scene;
+use octray_scenes::name;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +44,7 @@ impl NamedScene {
         let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self {
-            name: name.into_owned(),
+            name: name::line(&name),
             path: path.clone(),
             scene,
         })

@@ -105,6 +105,11 @@ impl Events {
         }
     }
 
+    /// Returns the hits of all rays that look for the closest one.
+    pub fn hits(&self) -> f64 {
+        self.rest[2]
+    }
+
     /// Returns steps and tests per ray.
     pub fn per_ray(&self) -> [f64; 2] {
         let [closest, shadow] = &self.search;
