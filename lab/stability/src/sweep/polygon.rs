@@ -191,10 +191,7 @@ pub fn inside<S: Number>(query: &Query<S>) -> bool {
 pub fn shipped<S: Number>(query: Query<S>) -> bool {
     let height = S::from_f64(span::<S>() / 8.0);
     let [x, y] = query.point;
-    let ray = Ray {
-        origin: [x, y, height].into(),
-        direction: vector([0.0, 0.0, -1.0]),
-    };
+    let ray = Ray::new([x, y, height].into(), vector([0.0, 0.0, -1.0]));
     let star = outline(vector([0.0, 0.0, 1.0]), S::ZERO, &query.corners);
     fixtures::hit(
         &polygon(&star, &query.corners),
