@@ -94,7 +94,7 @@ fn what_is_too_fine_is_named() {
 fn an_eye_on_a_curved_surface_is_told() {
     let surface = "f 1 1 1  1 1 1  0 0 0  1 0 0";
     let told = |objects: &str| {
-        let text = format!("v 0 2 0 at 3 0 3 up 0 1 0 resolution 4 4 {surface} {objects}");
+        let text = format!("v 0 2 0 at 3 0 3 up 0 1 0 angle 40 resolution 4 4 {surface} {objects}");
         reported::<f32>(&parse(&text).unwrap(), (4, 4))
     };
     let on =
@@ -112,7 +112,7 @@ fn an_eye_on_a_curved_surface_is_told() {
 fn gaps_that_a_format_cannot_see_are_told() {
     let surface = "f 1 1 1  1 1 1  0 0 0  1 0 0";
     let scene = |objects: &str| {
-        let view = "v 3 2 4 at 0 0 0 up 0 1 0 resolution 4 4";
+        let view = "v 3 2 4 at 0 0 0 up 0 1 0 angle 40 resolution 4 4";
         parse(&format!("{view} {surface} {objects}")).unwrap()
     };
     let square = |y: f64, half: f64| {

@@ -23,10 +23,10 @@ pub struct Cone<S> {
     pub mid_radius: S,
     /// The sine of the angle between axis and side, positive if the cone widens to the top.
     pub sin: S,
-    /// The cosine of that angle, > 0 (1 for a cylinder).
+    /// The cosine of that angle, > 0 (1 for a cylinder) unless it rounds to 0.
     pub cos: S,
-    /// Half the difference of the radii, local, if the cone is flat: if it widens by more than [`Cone::FLAT`] times its height;
-    /// 0 if not.
+    /// Half the difference of the radii, local, if the cone is flat; 0 if not. It is flat if they differ by more than
+    /// [`Cone::FLAT`] times its height.
     pub half_widening: S,
     /// The radius of the bounding sphere around `centre`, with slack.
     pub bounding_radius: S,
@@ -56,7 +56,7 @@ struct Crossing<S> {
 }
 
 impl<S> Cone<S> {
-    /// A cone that widens more than this times its height is flat.
+    /// A cone is flat if its radii differ by more than this times its height.
     pub const FLAT: f64 = 8.0;
 }
 
@@ -169,7 +169,7 @@ impl<S: Tolerance> Cone<S> {
         let t = if (self.sin > S::ZERO) == (crossing.rise > S::ZERO) {
             second.or(first)?
         } else {
-            first?
+            first.or(second)?
         };
         let point = crossing.w + crossing.d * t;
         let from_axis = (point - self.axis * point.dot(self.axis)).square_wide();
