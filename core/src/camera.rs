@@ -75,14 +75,8 @@ impl<S: Scalar> RayRow<'_, S> {
     pub fn ray(&self, x: S) -> Ray<S> {
         let place = self.middle + self.camera.right * x;
         match self.camera.projection {
-            Projection::Perspective => Ray {
-                origin: self.camera.origin,
-                direction: place.unit().0,
-            },
-            Projection::Parallel => Ray {
-                origin: place,
-                direction: self.camera.forward,
-            },
+            Projection::Perspective => Ray::new(self.camera.origin, place.unit().0),
+            Projection::Parallel => Ray::new(place, self.camera.forward),
         }
     }
 }

@@ -37,6 +37,8 @@ impl ObjectRef {
     /// The most objects of one kind.
     pub const MAX_OBJECTS: usize = 1 << 28;
     const LAST: u32 = 1 << 31;
+    /// No object: of a kind that there is not.
+    pub(crate) const NONE: Self = Self(7 << 28);
 
     /// Object `index` of its kind; `index` below [`ObjectRef::MAX_OBJECTS`].
     #[inline(always)]

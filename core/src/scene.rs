@@ -2,7 +2,7 @@
 
 use crate::features::{ALL_FEATURES, FeatureSet};
 use crate::object::{ObjectKind, ObjectRef};
-use crate::scalar::{Exponent, Scalar, Tolerance};
+use crate::scalar::{Exponent, Scalar};
 use crate::shape::Shapes;
 use crate::vec3::Vec3;
 
@@ -40,7 +40,7 @@ use crate::vec3::Vec3;
 /// );
 ///
 /// let objects: Vec<_> = scene.shapes.refs().collect();
-/// let ray = Ray { origin: vec3(0.0, 0.0, 20.0), direction: vec3(0.0, 0.0, -1.0) };
+/// let ray = Ray::new(vec3(0.0, 0.0, 20.0), vec3(0.0, 0.0, -1.0));
 /// let hit = BruteForce(&objects).nearest(&scene, &ray, &mut (), &mut ()).unwrap();
 /// assert_eq!(hit.object, ObjectRef::new(ObjectKind::Sphere, 9));
 /// assert_eq!(scene.attributes_of(hit.object).id, 9);
@@ -122,18 +122,12 @@ pub struct Light<S> {
     pub position: Vec3<S>,
     /// Its intensity, linear; it does not fall off with distance.
     pub colour: Vec3<S>,
-    /// The [`Tolerance::surface_error`] of a flat surface at the light, which does not block it.
-    pub clearance: S,
 }
 
-impl<S: Tolerance> Light<S> {
+impl<S> Light<S> {
     /// A light of this intensity at a place.
-    pub fn new(position: Vec3<S>, colour: Vec3<S>) -> Self {
-        Self {
-            position,
-            colour,
-            clearance: S::surface_error(position.size(), S::ZERO),
-        }
+    pub const fn new(position: Vec3<S>, colour: Vec3<S>) -> Self {
+        Self { position, colour }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::accel::Accelerator;
 use crate::features::{self, FeatureSet};
 use crate::object::ObjectRef;
 use crate::observe::{Observer, RayKind};
-use crate::ray::Ray;
+use crate::ray::{Departure, Ray};
 use crate::scalar::{Exponent, Intensity, Scalar, Tolerance};
 use crate::scene::{Scene, Surface};
 use crate::shape::Contact;
@@ -13,6 +13,7 @@ use crate::vec3::Vec3;
 /// What shading needs to know of a surface point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point<S> {
+    pub(crate) object: ObjectRef,
     pub(crate) contact: Contact<S>,
     /// The shading normal, flipped to face the incoming ray.
     pub(crate) normal: Vec3<S>,
@@ -24,30 +25,48 @@ pub(crate) struct Point<S> {
     pub(crate) mirror: Vec3<S>,
     /// Whether it is a unit vector. Where nothing is reflected, only visible lights need that.
     pub(crate) is_unit: bool,
-    /// How far off the surface new rays start; see [`Tolerance::surface_error`].
-    pub(crate) error: S,
-    /// The same as a vector along the surface's own normal.
+    /// How far off the surface new rays start, along the surface's own normal; see
+    /// [`Tolerance::surface_error`].
     pub(crate) offset: Vec3<S>,
 }
 
 impl<S: Scalar> Point<S> {
-    /// A ray from here, back to where the incoming one came from or through the surface. It starts
-    /// off the surface, on the side to which it leaves: there it cannot meet the surface it comes
-    /// from.
+    /// A ray from here, back to where the incoming one came from or through the surface.
     #[inline(always)]
     pub(crate) fn ray<const FEATURES: FeatureSet>(&self, direction: Vec3<S>, back: bool) -> Ray<S> {
-        let outward = if features::contains(FEATURES, features::PATCHES) && self.smooth {
-            self.contact.outward.dot(direction) >= S::ZERO
+        let outward = self.leaves_outward::<FEATURES>(direction, back);
+        self.ray_from(self.start(outward), direction, outward)
+    }
+
+    /// Whether a ray leaves the surface on its outer side, back to where the incoming one came from or through the
+    /// surface.
+    #[inline(always)]
+    fn leaves_outward<const FEATURES: FeatureSet>(&self, direction: Vec3<S>, back: bool) -> bool {
+        if features::contains(FEATURES, features::PATCHES) && self.smooth {
+            self.contact.outward.dot_wide(direction) >= S::product(S::ZERO, S::ZERO)
         } else {
             back != self.flipped
-        };
-        let point = self.contact.point;
-        let origin = if outward {
-            point + self.offset
+        }
+    }
+
+    /// Where rays start: off the surface, on the side to which they leave. There no other surface in the same place
+    /// is in the way.
+    #[inline(always)]
+    fn start(&self, outward: bool) -> Vec3<S> {
+        if outward {
+            self.contact.point + self.offset
         } else {
-            point - self.offset
-        };
-        Ray { origin, direction }
+            self.contact.point - self.offset
+        }
+    }
+
+    #[inline(always)]
+    fn ray_from(&self, origin: Vec3<S>, direction: Vec3<S>, outward: bool) -> Ray<S> {
+        Ray {
+            origin,
+            direction,
+            from: Departure::new(self.object, !outward),
+        }
     }
 
     /// The cosine between the mirror direction and a unit vector; `None` where it is not positive.
@@ -87,7 +106,11 @@ pub(crate) fn direct_light<
         return sum;
     }
     for (i, light) in scene.lights.iter().enumerate() {
-        let to_light = light.position - point.contact.point;
+        // The ray is aimed from where it starts: beside the line to the light it would end beside the light, possibly
+        // behind a surface near it.
+        let outward = point.leaves_outward::<FEATURES>(light.position - point.contact.point, true);
+        let start = point.start(outward);
+        let to_light = light.position - start;
         // Most lights behind a surface are found without a square root.
         if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
             continue;
@@ -98,16 +121,17 @@ pub(crate) fn direct_light<
             continue;
         }
         observer.ray(RayKind::Shadow);
-        let ray = point.ray::<FEATURES>(to_light, true);
-        // A surface at the light itself does not block it.
-        let limit = distance - light.clearance - point.error;
+        let ray = point.ray_from(start, to_light, outward);
         let last = shadow_cache.get(i).copied().flatten();
         let still = last.filter(|&object| {
-            let blocks = scene.shapes.blocks(object, &ray, limit, observer);
+            let blocks = scene
+                .shapes
+                .blocks(object, &ray, distance, Some(light), observer);
             observer.test(object.kind(), blocks);
             blocks
         });
-        let blocker = still.or_else(|| accelerator.any_hit(scene, &ray, limit, stack, observer));
+        let blocker = still
+            .or_else(|| accelerator.any_hit(scene, &ray, distance, Some(light), stack, observer));
         if blocker.is_some() {
             observer.blocked();
             if let Some(place) = shadow_cache.get_mut(i) {

@@ -10,6 +10,7 @@ mod bands;
 mod cone;
 mod contact;
 mod cuboid;
+mod ends;
 mod even_odd;
 mod patch;
 mod plane;

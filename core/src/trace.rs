@@ -48,7 +48,7 @@ impl<S: Scalar + Tolerance + Ratio + Intensity + AccelScalar> TraceScalar for S 
 /// const RAYS: usize = required_rays(8, features::ALL_FEATURES);
 /// let (mut rays, mut stack) = ([QueuedRay::EMPTY; RAYS], ());
 /// let mut workspace = tracer.workspace(&mut rays, &mut stack, &mut [])?;
-/// let ray = Ray { origin: vec3(0.0, 0.0, 8.0), direction: vec3(0.0, 0.0, -1.0) };
+/// let ray = Ray::new(vec3(0.0, 0.0, 8.0), vec3(0.0, 0.0, -1.0));
 /// let colour = tracer.radiance(ray, &mut workspace, &mut ());
 /// // The box itself, and half of the background in its mirror.
 /// assert_eq!(colour, vec3(0.25, 0.0, 0.5));
@@ -200,15 +200,16 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
         if reflects {
             mirror = mirror.unit().0;
         }
+        let smooth = attributes.patch != Attributes::FLAT;
         let error = S::surface_error(contact.point.size(), contact.curvature_extent);
         let point = Point {
+            object: hit.object,
             contact,
             normal,
             flipped,
-            smooth: attributes.patch != Attributes::FLAT,
+            smooth,
             mirror,
             is_unit: reflects,
-            error,
             offset: contact.outward * error,
         };
         let light = shade::direct_light(
@@ -220,38 +221,40 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
             workspace.shadow_cache,
             observer,
         );
-        let mut follow = |share: S, direction: Option<Vec3<S>>, kind: RayKind| {
-            if share == S::ZERO || from.depth >= self.max_depth {
+        let mut follow = |share: S, direction: Vec3<S>, kind: RayKind| {
+            if from.depth >= self.max_depth {
                 return;
             }
             let weight = from.weight * share;
             if weight < self.cut_off {
                 return;
             }
-            match (direction, workspace.rays.get_mut(*waiting)) {
-                (Some(direction), Some(place)) => {
-                    *place = QueuedRay {
-                        ray: point.ray::<FEATURES>(direction, kind == RayKind::Reflected),
-                        weight,
-                        depth: from.depth + 1,
-                        kind,
-                    };
-                    *waiting += 1;
-                    observer.queued(*waiting);
-                }
-                (Some(_), None) => {
-                    observer.dropped_ray();
-                }
-                (None, _) => {}
+            if let Some(place) = workspace.rays.get_mut(*waiting) {
+                *place = QueuedRay {
+                    ray: point.ray::<FEATURES>(direction, kind == RayKind::Reflected),
+                    weight,
+                    depth: from.depth + 1,
+                    kind,
+                };
+                *waiting += 1;
+                observer.queued(*waiting);
+            } else {
+                observer.dropped_ray();
             }
         };
+        let mut mirrored = surface.reflect;
         if refracts {
             let leaves = contact.closed && contact.outward.dot(incoming) > S::ZERO;
-            let through = refract(surface, incoming, normal, -n_dot_i, leaves);
-            follow(surface.refract, through, RayKind::Transmitted);
+            match refract(surface, incoming, normal, -n_dot_i, leaves) {
+                Some(through) => follow(surface.refract, through, RayKind::Transmitted),
+                None => {
+                    mirrored = mirrored + surface.refract;
+                    mirror = (incoming - normal * (n_dot_i + n_dot_i)).unit().0;
+                }
+            }
         }
-        if reflects {
-            follow(surface.reflect, Some(point.mirror), RayKind::Reflected);
+        if (reflects || refracts) && mirrored > S::ZERO {
+            follow(mirrored, mirror, RayKind::Reflected);
         }
         if refracts {
             light * (S::ONE - surface.refract)

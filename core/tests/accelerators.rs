@@ -174,7 +174,7 @@ fn shoot<S: Quantize, A: Accelerator<S>>(
     };
     let colour = tracer.radiance(ray, &mut workspace, &mut Counters::default());
     let _ = colour.to_array().map(S::level);
-    tree.any_hit(&scene, &ray, limit, &mut stack, &mut ());
+    tree.any_hit(&scene, &ray, limit, None, &mut stack, &mut ());
 }
 
 /// A number, most often one that hardly any scene has.

@@ -2,7 +2,7 @@
 //! these values and everything computed from them.
 
 use octray_core::quantize::Quantize;
-use octray_scenes::model::Scene;
+use octray_scenes::model::{Scene, Surface};
 use thiserror::Error;
 
 /// Why a scene does not fit a format.
@@ -63,13 +63,22 @@ pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
         bound(largest(lit), name("the light"));
         let bend = surface.ior.max(1.0 / surface.ior);
         bound(bend * bend, name("the square of the refraction index"));
-        let share = surface.reflect.max(surface.refract);
-        let weight = share.max(1.0).powi(max_depth.min(1000) as i32);
+        let weight = passed_on(surface).max(1.0).powi(max_depth.min(1000) as i32);
         bound(weight, name("the weight of reflected rays"));
         // The most that a contribution can be before it is added and clamped.
         bound(weight * largest(lit), name("the reflected light"));
     }
     bounds
+}
+
+/// Returns the largest share of its light that a single ray brings to a surface: at total internal reflection, the
+/// transmitted share is mirrored with the other.
+pub(crate) fn passed_on(surface: &Surface) -> f64 {
+    if surface.refract > 0.0 && surface.ior != 1.0 {
+        surface.reflect + surface.refract
+    } else {
+        surface.reflect.max(surface.refract)
+    }
 }
 
 /// Checks that no value that is computed from the scene's colours and coefficients overflows.

@@ -140,19 +140,15 @@ pub fn quantise<S: Quantize>(
     let placement = Placement::of::<S>(&extent);
     let frame = settings.frame::<S>(&rays, scene, &extent, &placement);
     let mut quantised = Quantised {
-        slack: up(placement.length(placement.diagonal) * S::SLACK),
+        slack: up(placement.length((placement.diagonal * S::SLACK).max(extent.rounding()))),
         diameter: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
         surfaces: scene.surfaces.iter().map(surface).collect(),
         lights: scene
             .lights
             .iter()
-            .map(|light| {
-                let position = vector(placement.point(light.position));
-                Light {
-                    position,
-                    colour: vector(light.colour),
-                    clearance: S::surface_error(position.size(), S::ZERO),
-                }
+            .map(|light| Light {
+                position: vector(placement.point(light.position)),
+                colour: vector(light.colour),
             })
             .collect(),
         background: vector(scene.background),

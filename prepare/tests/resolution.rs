@@ -89,3 +89,73 @@ fn what_is_too_fine_is_named() {
         "i24f8 resolves 1/16, but a pixel's share of the scene is 1/3118"
     );
 }
+
+#[test]
+fn an_eye_on_a_curved_surface_is_told() {
+    let surface = "f 1 1 1  1 1 1  0 0 0  1 0 0";
+    let told = |objects: &str| {
+        let text = format!("v 0 2 0 at 3 0 3 up 0 1 0 angle 40 resolution 4 4 {surface} {objects}");
+        reported::<f32>(&parse(&text).unwrap(), (4, 4))
+    };
+    let on =
+        "f32 resolves 1/262144, but the eye's distance from object 1 as a share of the scene is 0";
+    assert_eq!(told("s 0 1 0 1").as_deref(), Some(on));
+    // On a cylinder, on a cone, at its tip.
+    assert_eq!(told("c -1 0 0 1 -1 3 0 1").as_deref(), None);
+    assert_eq!(told("c 1 0 0 1 1 3 0 1").as_deref(), Some(on));
+    assert_eq!(told("c 0 0 0 1 0 2 0 0").as_deref(), Some(on));
+    assert_eq!(told("c 1 1 0 0.5 1 3 0 1.5").as_deref(), Some(on));
+    assert_eq!(told("s 0 1 0 0.99").as_deref(), None);
+}
+
+#[test]
+fn gaps_that_a_format_cannot_see_are_told() {
+    let surface = "f 1 1 1  1 1 1  0 0 0  1 0 0";
+    let scene = |objects: &str| {
+        let view = "v 3 2 4 at 0 0 0 up 0 1 0 angle 40 resolution 4 4";
+        parse(&format!("{view} {surface} {objects}")).unwrap()
+    };
+    let square = |y: f64, half: f64| {
+        format!("p 4 -{half} {y} -{half} {half} {y} -{half} {half} {y} {half} -{half} {y} {half} ")
+    };
+    let decal = |gap: f64| scene(&(square(0.0, 2.0) + &square(gap, 1.0)));
+    let told = reported::<Fixed<16, PerThread>>(&decal(1e-5), (4, 4)).unwrap();
+    assert_eq!(
+        told,
+        "i16f16 resolves 1/130798, but the gap between objects 1 and 2 as a share of the scene is 1/670820"
+    );
+    assert_eq!(reported::<Fixed<24, PerThread>>(&decal(1e-5), (4, 4)), None);
+    assert_eq!(reported::<f64>(&decal(1e-9), (4, 4)), None);
+    assert!(reported::<f32>(&decal(1e-7), (4, 4)).is_some());
+    assert_eq!(reported::<f32>(&decal(1e-4), (4, 4)), None);
+    // In the same place, or beside each other: no gap.
+    assert_eq!(reported::<f32>(&decal(0.0), (4, 4)), None);
+    let beside = scene("p 3 0 0 0 1 0 0 0 0 1  p 3 2 1e-8 0 3 1e-8 0 2 1e-8 1");
+    assert_eq!(reported::<f32>(&beside, (4, 4)), None);
+    for [a, b] in [
+        ["s 0 1 0 0.9", "s 0 1 0 0.9000001"],
+        ["c 0 0 0 1 0 1 1 0.5", "c 0 0 0 1.0000001 0 1 1 0.5000001"],
+        ["box 0 0 0 1 1 1", "box 0 0 0 1.0000001 2 2"],
+        [
+            "box 0 0 0 1 1 1",
+            "p 3 -1 0.5000001 0 1 0.5000001 0 0 0.5000001 1",
+        ],
+    ] {
+        let told = reported::<f32>(&scene(&format!("{a} s 9 9 9 1 {b}")), (4, 4)).unwrap();
+        assert!(told.contains("the gap between objects 1 and 3 "), "{told}");
+    }
+}
+
+#[test]
+fn a_shine_that_counts_as_0_is_told() {
+    let scene =
+        |surface: &str| parse(&format!("v 0 0 9 resolution 4 4 {surface} s 0 0 0 1")).unwrap();
+    let dull = scene("f 0 0 0  1 1 1  0.5 0.5 0.5  0.001 0 0");
+    assert_eq!(
+        reported::<Fixed<8, PerThread>>(&dull, (1, 1)).unwrap(),
+        "i24f8 resolves 1/512, but the shine of surface 1, which counts as 0, is 1/1000"
+    );
+    assert_eq!(reported::<Fixed<12, PerThread>>(&dull, (1, 1)), None);
+    let matte = scene("f 0 0 0  1 1 1  0 0 0  0.001 0 0");
+    assert_eq!(reported::<Fixed<8, PerThread>>(&matte, (1, 1)), None);
+}

@@ -5,7 +5,7 @@ use crate::object::ObjectRef;
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 
 /// What a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,12 +34,14 @@ pub trait Accelerator<S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES>: Syn
         observer: &mut O,
     ) -> Option<Hit<S>>;
 
-    /// Any object that the ray meets at 0 < t ≤ `limit`.
+    /// Any object that the ray meets at 0 < t ≤ `limit`. On the way to `light`, the surfaces that hold it do not
+    /// count where the ray arrives there.
     fn any_hit<O: Observer>(
         &self,
         scene: &Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
+        light: Option<&Light<S>>,
         stack: &mut Self::Stack,
         observer: &mut O,
     ) -> Option<ObjectRef>;

@@ -6,7 +6,7 @@ use crate::object::ObjectRef;
 use crate::observe::Observer;
 use crate::ray::Ray;
 use crate::scalar::{Scalar, Tolerance};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 
 /// A query for the first object a ray meets, or with `ANY` for any object nearer than the limit.
 pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: FeatureSet> {
@@ -14,6 +14,8 @@ pub(super) struct Query<'a, S: Scalar, O, const ANY: bool, const FEATURES: Featu
     pub(super) ray: &'a Ray<S>,
     /// Nothing beyond this distance matters any more.
     pub(super) limit: S,
+    /// What the ray goes to.
+    pub(super) light: Option<&'a Light<S>>,
     pub(super) found: Option<ObjectRef>,
     pub(super) observer: &'a mut O,
 }
@@ -26,12 +28,14 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
         scene: &'a Scene<'a, S, FEATURES>,
         ray: &'a Ray<S>,
         limit: S,
+        light: Option<&'a Light<S>>,
         observer: &'a mut O,
     ) -> Self {
         Self {
             scene,
             ray,
             limit,
+            light,
             found: None,
             observer,
         }
@@ -52,6 +56,8 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
             } else {
                 shapes.shared_hit(object, self.ray, self.limit, self.observer)
             };
+            let light = self.light.filter(|_| ANY);
+            let hit = hit.and_then(|t| shapes.confirm(object, self.ray, t, self.limit, light));
             self.observer.test(object.kind(), hit.is_some());
             if let Some(t) = hit {
                 if ANY {
@@ -115,6 +121,7 @@ macro_rules! accelerate {
                     scene,
                     ray,
                     scene.diameter,
+                    None,
                     observer,
                 );
                 self.walk(&mut query, stack);
@@ -127,11 +134,12 @@ macro_rules! accelerate {
                 scene: &$crate::scene::Scene<'_, S, FEATURES>,
                 ray: &$crate::ray::Ray<S>,
                 limit: S,
+                light: Option<&$crate::scene::Light<S>>,
                 stack: &mut $stack,
                 observer: &mut O,
             ) -> Option<$crate::object::ObjectRef> {
                 let mut query =
-                    $crate::accel::query::Query::<_, _, true, FEATURES>::new(scene, ray, limit, observer);
+                    $crate::accel::query::Query::<_, _, true, FEATURES>::new(scene, ray, limit, light, observer);
                 self.walk(&mut query, stack);
                 query.found
             }

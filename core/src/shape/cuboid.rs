@@ -66,6 +66,39 @@ impl<S: Tolerance> Cuboid<S> {
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
+    /// Where a ray that starts on a face and goes inward leaves the box.
+    #[inline(always)]
+    pub(super) fn hit_again(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
+        let (t, _) = self.cross(ray)?.exit;
+        let in_box = || S::HITS_WITHIN_SLACK || self.bounds(slack).contains(ray.at(t));
+        (t > S::ZERO && t <= limit && in_box()).then_some(t)
+    }
+
+    /// Whether faces hold the ray's end, to within `slack`, and it arrives there before it is inside the box: from
+    /// beyond one of these faces, or all the way from inside.
+    #[inline(always)]
+    pub(super) fn ends(&self, ray: &Ray<S>, end: Vec3<S>, slack: S) -> bool {
+        let (mut held, mut from_beyond, mut from_inside) = (false, false, true);
+        for axis in Axis::ALL {
+            let (from, to) = (ray.origin[axis], end[axis]);
+            // How far the two are outside of either face.
+            for (from, to) in [
+                (self.low[axis] - from, self.low[axis] - to),
+                (from - self.high[axis], to - self.high[axis]),
+            ] {
+                if to > slack {
+                    return false;
+                }
+                if to >= -slack {
+                    held = true;
+                    from_beyond |= from >= to.min(S::ZERO);
+                }
+                from_inside &= from <= S::ZERO;
+            }
+        }
+        held && (from_beyond || from_inside)
+    }
+
     /// The box that all hits lie in.
     #[inline(always)]
     pub(super) fn bounds(&self, slack: S) -> Aabb<S> {

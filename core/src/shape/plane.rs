@@ -36,6 +36,18 @@ impl<S: Tolerance> Plane<S> {
         (t > S::ZERO && t <= limit).then_some(t)
     }
 
+    /// Whether it holds a point, to within `slack`. A ray to the point meets the plane nowhere else.
+    #[inline(always)]
+    pub(super) fn holds(&self, point: Vec3<S>, slack: S) -> bool {
+        self.above(point).abs() <= slack
+    }
+
+    /// How far a point is on the normal's side.
+    #[inline(always)]
+    fn above(&self, point: Vec3<S>) -> S {
+        S::narrow(self.normal.dot_wide(point) - S::product(self.offset, S::ONE))
+    }
+
     /// The point's two coordinates besides the projection axis.
     #[inline(always)]
     pub(super) fn project(&self, p: Vec3<S>) -> [S; 2] {
@@ -46,9 +58,8 @@ impl<S: Tolerance> Plane<S> {
     /// The point goes back onto the plane.
     #[inline(always)]
     pub(super) fn contact(&self, point: Vec3<S>) -> Contact<S> {
-        let above = S::narrow(self.normal.dot_wide(point) - S::product(self.offset, S::ONE));
         Contact {
-            point: point - self.normal * above,
+            point: point - self.normal * self.above(point),
             outward: self.normal,
             curvature_extent: S::ZERO,
             closed: false,

@@ -13,6 +13,7 @@ use crate::object::{ObjectKind, ObjectRef};
 use crate::observe::Observer;
 use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, Tolerance};
+use crate::scene::Light;
 use crate::vec3::Vec3;
 
 /// All shapes of a scene, by kind. Kinds that `FEATURES` leaves out are never looked at.
@@ -39,7 +40,7 @@ pub struct Shapes<'a, S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES> {
     pub normals: &'a [Vec3<S>],
     /// How far a computed hit may lie outside its shape, as a length of the scene: its diameter times
     /// [`Quantize::SLACK`](crate::quantize::Quantize::SLACK). Boxes of spheres and cuboids are this much
-    /// wider.
+    /// wider, and a light this near to a surface is held by it.
     pub slack: S,
 }
 
@@ -97,27 +98,27 @@ impl<S: Scalar, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
 
 impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     #[inline(always)]
-    fn sphere(&self, i: usize) -> Option<&Sphere<S>> {
+    pub(super) fn sphere(&self, i: usize) -> Option<&Sphere<S>> {
         enabled::<_, FEATURES>(features::SPHERES, self.spheres).get(i)
     }
 
     #[inline(always)]
-    fn triangle(&self, i: usize) -> Option<&Triangle<S>> {
+    pub(super) fn triangle(&self, i: usize) -> Option<&Triangle<S>> {
         enabled::<_, FEATURES>(features::TRIANGLES, self.triangles).get(i)
     }
 
     #[inline(always)]
-    fn polygon(&self, i: usize) -> Option<&Polygon<S>> {
+    pub(super) fn polygon(&self, i: usize) -> Option<&Polygon<S>> {
         enabled::<_, FEATURES>(features::POLYGONS, self.polygons).get(i)
     }
 
     #[inline(always)]
-    fn cone(&self, i: usize) -> Option<&Cone<S>> {
+    pub(super) fn cone(&self, i: usize) -> Option<&Cone<S>> {
         enabled::<_, FEATURES>(features::CONES, self.cones).get(i)
     }
 
     #[inline(always)]
-    fn cuboid(&self, i: usize) -> Option<&Cuboid<S>> {
+    pub(super) fn cuboid(&self, i: usize) -> Option<&Cuboid<S>> {
         enabled::<_, FEATURES>(features::CUBOIDS, self.cuboids).get(i)
     }
 
@@ -130,7 +131,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     }
 
     /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. Reports
-    /// to the observer how far the test goes, not the test itself.
+    /// to the observer how far the test goes, not the test itself. Whether the hit counts, [`Shapes::confirm`] says.
     ///
     /// Not inlined on soft-float targets: one shared copy is smaller and costs nothing there, since
     /// the walks keep more in registers without it.
@@ -167,8 +168,9 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         self.hit(object, ray, limit, observer)
     }
 
-    /// Whether `ray` meets the object at 0 < t ≤ `limit`. On hosts by `shared_hit`; on
-    /// firmware, where nothing else uses that, by a copy that says no more than this.
+    /// Whether the object keeps `ray` from going as far as `limit`, to `light` if that is its aim: whether it meets
+    /// the object at a distance that [counts](Shapes::confirm). On hosts by `shared_hit`; on firmware, where nothing
+    /// else uses that, by a copy that says no more than this.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn blocks<O: Observer>(
@@ -176,13 +178,16 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         object: ObjectRef,
         ray: &Ray<S>,
         limit: S,
+        light: Option<&Light<S>>,
         observer: &mut O,
     ) -> bool {
-        if cfg!(target_os = "none") {
-            self.hit(object, ray, limit, observer).is_some()
+        let hit = if cfg!(target_os = "none") {
+            self.hit(object, ray, limit, observer)
         } else {
-            self.shared_hit(object, ray, limit, observer).is_some()
-        }
+            self.shared_hit(object, ray, limit, observer)
+        };
+        hit.and_then(|t| self.confirm(object, ray, t, limit, light))
+            .is_some()
     }
 
     /// The box that every hit of the object lies in.

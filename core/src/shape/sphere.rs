@@ -49,6 +49,31 @@ impl<S: Tolerance> Sphere<S> {
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
+    /// Where a ray that starts on the sphere and goes inward leaves it.
+    #[inline(always)]
+    pub(super) fn hit_again(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
+        let to_centre = self.centre - ray.origin;
+        let middle = to_centre.dot(ray.direction);
+        let apart = to_centre - ray.direction * middle;
+        let t = middle + S::sqrt_wide(self.radius.square() - apart.square_wide());
+        let half_extent = self.radius + slack;
+        let in_box = || S::HITS_WITHIN_SLACK || (ray.at(t) - self.centre).size() <= half_extent;
+        (t > S::ZERO && t <= limit && in_box()).then_some(t)
+    }
+
+    /// Whether the sphere holds the ray's end, to within `slack`, and a hit `short` of it is where the ray arrives
+    /// there: the ray comes from outside, or the hit is not beyond the middle of its chord.
+    #[inline(always)]
+    pub(super) fn ends(&self, ray: &Ray<S>, end: Vec3<S>, short: S, slack: S) -> bool {
+        let from_centre = end - self.centre;
+        let (square, radius_square) = (from_centre.square_wide(), self.radius.square());
+        let margin = S::product(slack, self.radius + self.radius + slack);
+        let half_chord = from_centre.dot(ray.direction);
+        radius_square - margin <= square
+            && square <= radius_square + margin
+            && (half_chord <= S::ZERO || short <= half_chord)
+    }
+
     /// The box that all hits lie in.
     pub(super) fn bounds(&self, slack: S) -> Aabb<S> {
         let half_extent = self.radius + slack;

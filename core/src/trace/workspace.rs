@@ -21,10 +21,7 @@ pub struct QueuedRay<S> {
 impl<S: Scalar> QueuedRay<S> {
     /// Fills an unused place.
     pub const EMPTY: Self = Self {
-        ray: Ray {
-            origin: Vec3::ZERO,
-            direction: Vec3::ZERO,
-        },
+        ray: Ray::new(Vec3::ZERO, Vec3::ZERO),
         weight: S::ZERO,
         depth: 0,
         kind: RayKind::Primary,

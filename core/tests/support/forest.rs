@@ -4,7 +4,9 @@ use fastrand::Rng;
 use octray_core::accel::{Accelerator, BruteForce, BuildOptions, LinkBy, OctreeVariant};
 use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
-use octray_core::ray::Ray;
+use octray_core::ray::{Departure, Ray};
+use octray_core::scene::Light;
+use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Quantised;
 use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, every_object};
 use std::collections::BTreeMap;
@@ -105,46 +107,62 @@ impl<S: Quantize> Forest<S> {
             }),
         ];
         let blocked = limits.map(|limit| meets(&self.bare, &list, ray, limit));
+        // The way to a light there, or one that the first object holds.
+        let light = nearest.map_or(S::ONE, |(t, _)| t);
+        let lit = arrives(&self.bare, &list, ray, light);
         for (&limit, &blocked) in limits.iter().zip(&blocked) {
             let reached = nearest.is_some_and(|(t, _)| t <= limit);
             wrong.check("list", reached == blocked, || {
                 format!("{case}: {nearest:?}, but within {limit:?} {blocked}; {ray:?}")
             });
         }
-        let mut check = |name, got, meets: &[bool]| {
-            wrong.check(name, got == nearest && meets == blocked, || {
+        let mut check = |name, got, meets: &[bool], arrives| {
+            let right = got == nearest && meets == blocked && arrives == lit;
+            wrong.check(name, right, || {
                 format!(
-                    "{case}: {got:?} {meets:?}, not {nearest:?} {blocked:?} \
+                    "{case}: {got:?} {meets:?} {arrives}, not {nearest:?} {blocked:?} {lit} \
                      within {limits:?}; {ray:?}"
                 )
             });
         };
         let (name, scene, tree) = &self.bvh8;
-        let tree = tree.tree();
-        let got = seen(scene, &tree, ray);
+        let (tree, own) = (tree.tree(), reordered(ray, &self.bare, scene));
         check(
             name,
-            got,
-            &limits.map(|limit| meets(scene, &tree, ray, limit)),
+            seen(scene, &tree, &own),
+            &limits.map(|limit| meets(scene, &tree, &own, limit)),
+            arrives(scene, &tree, &own, light),
         );
         let (name, scene, tree) = &self.compact;
-        let tree = tree.tree();
-        let got = seen(scene, &tree, ray);
+        let (tree, own) = (tree.tree(), reordered(ray, &self.bare, scene));
         check(
             name,
-            got,
-            &limits.map(|limit| meets(scene, &tree, ray, limit)),
+            seen(scene, &tree, &own),
+            &limits.map(|limit| meets(scene, &tree, &own, limit)),
+            arrives(scene, &tree, &own, light),
         );
         for (name, scene, tree) in &self.octrees {
-            let tree = tree.tree();
-            let got = seen(scene, &tree, ray);
+            let (tree, own) = (tree.tree(), reordered(ray, &self.bare, scene));
             check(
                 name,
-                got,
-                &limits.map(|limit| meets(scene, &tree, ray, limit)),
+                seen(scene, &tree, &own),
+                &limits.map(|limit| meets(scene, &tree, &own, limit)),
+                arrives(scene, &tree, &own, light),
             );
         }
     }
+}
+
+/// The ray in the order of another tree's objects.
+fn reordered<S: Quantize>(ray: &Ray<S>, from: &Quantised<S>, to: &Quantised<S>) -> Ray<S> {
+    let (from, to) = (from.scene(), to.scene());
+    let mut ray = *ray;
+    if let Some(object) = from.shapes.refs().find(|o| ray.from.leaves(*o)) {
+        let id = from.attributes_of(object).id;
+        let there = to.shapes.refs().find(|o| to.attributes_of(*o).id == id);
+        ray.from = Departure::new(there.expect("the same objects"), ray.from.is_inward());
+    }
+    ray
 }
 
 /// At which distance a ray meets which object of the file first.
@@ -166,11 +184,24 @@ fn meets<S: Quantize, A: Accelerator<S>>(
     limit: S,
 ) -> bool {
     let scene = scene.scene();
-    let found = tree.any_hit(&scene, ray, limit, &mut A::Stack::default(), &mut ());
+    let found = tree.any_hit(&scene, ray, limit, None, &mut A::Stack::default(), &mut ());
     if let Some(object) = found {
-        assert!(scene.shapes.hit(object, ray, limit, &mut ()).is_some());
+        assert!(scene.shapes.blocks(object, ray, limit, None, &mut ()));
     }
     found.is_some()
+}
+
+/// Whether a ray comes to a light at distance `t`.
+fn arrives<S: Quantize, A: Accelerator<S>>(
+    scene: &Quantised<S>,
+    tree: &A,
+    ray: &Ray<S>,
+    t: S,
+) -> bool {
+    let light = Light::new(ray.at(t), Vec3::ZERO);
+    let mut stack = A::Stack::default();
+    tree.any_hit(&scene.scene(), ray, t, Some(&light), &mut stack, &mut ())
+        .is_none()
 }
 
 /// What was found to be wrong.

@@ -104,10 +104,7 @@ impl Mesh {
             From::Above(height) => [to[0], to[1], height],
         };
         let (origin, to) = (point(origin), point(to));
-        Ray {
-            origin,
-            direction: (to - origin).unit().0,
-        }
+        Ray::new(origin, (to - origin).unit().0)
     }
 
     /// The length of an edge.

@@ -4,7 +4,7 @@ use fastrand::Rng;
 use octray_core::accel::{Accelerator, BoundScalar, BruteForce};
 use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
-use octray_core::ray::{Aabb, Ray};
+use octray_core::ray::{Aabb, Departure, Ray};
 use octray_core::vec3::{Axis, Vec3, vec3};
 use octray_prepare::quantise::{Prepared, Quantised};
 
@@ -59,20 +59,14 @@ impl<'a, S: Quantize> Rays<'a, S> {
                         origin[axis] = half(bounds.low[axis], bounds.high[axis]);
                     }
                 }
-                Ray {
-                    origin,
-                    direction: direction(rng),
-                }
+                Ray::new(origin, direction(rng))
             }
             // From the face of a cell, anywhere.
             3 => {
                 let mut origin = within(&self.world, rng);
                 let axis = Axis::ALL[rng.usize(..3)];
                 origin[axis] = self.plane(axis, rng);
-                Ray {
-                    origin,
-                    direction: direction(rng),
-                }
+                Ray::new(origin, direction(rng))
             }
             // Along an axis, in the planes of cells or boxes: along edges.
             4 => {
@@ -84,7 +78,7 @@ impl<'a, S: Quantize> Rays<'a, S> {
                 }
                 let mut direction = Vec3::ZERO;
                 direction[Axis::ALL[rng.usize(..3)]] = sign(S::ONE, rng);
-                Ray { origin, direction }
+                Ray::new(origin, direction)
             }
             // In a plane of a cell, across.
             5 => {
@@ -98,33 +92,29 @@ impl<'a, S: Quantize> Rays<'a, S> {
                     (origin[a], origin[b]) = (self.plane(a, rng), self.plane(b, rng));
                     (towards[a], towards[b]) = (sign(S::ONE, rng), sign(S::ONE, rng));
                 }
-                Ray {
-                    origin,
-                    direction: towards.unit().0,
-                }
+                Ray::new(origin, towards.unit().0)
             }
             // From a surface.
             6 => {
                 let ray = towards(self.eye, within(&bounds, rng), rng);
                 let list = BruteForce(self.objects);
                 let scene = self.scene.scene();
-                let mut origin = within(&self.world, rng);
+                let mut ray_from = Ray::new(within(&self.world, rng), direction(rng));
                 if let Some(hit) = list.nearest(&scene, &ray, &mut (), &mut ()) {
                     let contact = shapes.contact(hit.object, &ray, hit.t);
-                    origin = match rng.u8(..3) {
+                    let size = contact.point.size();
+                    let error = S::surface_error(size, contact.curvature_extent);
+                    ray_from.origin = match rng.u8(..4) {
                         0 => ray.at(hit.t),
                         1 => contact.point,
-                        _ => {
-                            let size = contact.point.size();
-                            let error = S::surface_error(size, contact.curvature_extent);
-                            contact.point + contact.outward * error
-                        }
+                        2 => contact.point + contact.outward * error,
+                        _ => contact.point - contact.outward * error,
                     };
+                    if rng.bool() {
+                        ray_from.from = Departure::new(hit.object, rng.bool());
+                    }
                 }
-                Ray {
-                    origin,
-                    direction: direction(rng),
-                }
+                ray_from
             }
             // Nearly along an axis: components so small that they hardly count.
             _ => {
@@ -136,7 +126,7 @@ impl<'a, S: Quantize> Rays<'a, S> {
                 }
                 direction[Axis::ALL[rng.usize(..3)]] = sign(S::ONE, rng);
                 let direction = direction.unit().0;
-                Ray { origin, direction }
+                Ray::new(origin, direction)
             }
         }
     }
@@ -205,5 +195,5 @@ fn towards<S: Quantize>(origin: Vec3<S>, to: Vec3<S>, rng: &mut Rng) -> Ray<S> {
     } else {
         direction(rng)
     };
-    Ray { origin, direction }
+    Ray::new(origin, direction)
 }

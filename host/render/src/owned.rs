@@ -9,7 +9,7 @@ use octray_core::object::ObjectRef;
 use octray_core::observe::Observer;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
-use octray_core::scene::Scene;
+use octray_core::scene::{Light, Scene};
 use octray_prepare::tree::{OwnedBvh8, OwnedCompactBvh8, OwnedOctree};
 
 /// A tree in memory of its own.
@@ -77,16 +77,19 @@ impl<S: Quantize> Accelerator<S> for AnyAccelerator<'_, S::Bound> {
         scene: &Scene<'_, S, ALL_FEATURES>,
         ray: &Ray<S>,
         limit: S,
+        light: Option<&Light<S>>,
         stack: &mut Self::Stack,
         observer: &mut O,
     ) -> Option<ObjectRef> {
         match self {
-            Self::Bvh8(tree) => tree.any_hit(scene, ray, limit, &mut stack.bounds, observer),
+            Self::Bvh8(tree) => tree.any_hit(scene, ray, limit, light, &mut stack.bounds, observer),
             Self::CompactBvh8(tree) => {
-                tree.any_hit(scene, ray, limit, &mut stack.compact, observer)
+                tree.any_hit(scene, ray, limit, light, &mut stack.compact, observer)
             }
-            Self::Octree(tree) => tree.any_hit(scene, ray, limit, &mut stack.bounds, observer),
-            Self::BruteForce(all) => all.any_hit(scene, ray, limit, &mut (), observer),
+            Self::Octree(tree) => {
+                tree.any_hit(scene, ray, limit, light, &mut stack.bounds, observer)
+            }
+            Self::BruteForce(all) => all.any_hit(scene, ray, limit, light, &mut (), observer),
         }
     }
 }

@@ -5,7 +5,7 @@ use octray_core::object::ObjectRef;
 use octray_core::observe::Observer;
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
-use octray_core::scene::{Attributes, Scene, Surface};
+use octray_core::scene::{Attributes, Light, Scene, Surface};
 use octray_core::shape::Shapes;
 use octray_core::trace::{QueuedRay, TraceScalar, Tracer, Workspace};
 use octray_core::vec3::Vec3;
@@ -43,6 +43,7 @@ impl<S: Scalar> Accelerator<S> for MockAccelerator<S> {
         _: &Scene<'_, S>,
         _: &Ray<S>,
         _: S,
+        _: Option<&Light<S>>,
         _: &mut Seen<S>,
         _: &mut O,
     ) -> Option<ObjectRef> {

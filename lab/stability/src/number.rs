@@ -82,10 +82,7 @@ pub fn direction<S: Number>(v: [f64; 3]) -> Vec3<S> {
 
 /// Returns the ray from `origin` along `direction`.
 pub fn ray<S: Number>(origin: [f64; 3], direction: Vec3<S>) -> Ray<S> {
-    Ray {
-        origin: vector(origin),
-        direction,
-    }
+    Ray::new(vector(origin), direction)
 }
 
 /// Returns the result of `work` and the number of its saturations on this thread.

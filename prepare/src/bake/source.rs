@@ -314,13 +314,14 @@ fn polygon<S: Literal>(polygon: &Polygon<S>) -> String {
 fn cone<S: Literal>(cone: &Cone<S>) -> String {
     format!(
         "shape::Cone {{ centre: {}, axis: {}, half_length: {}, mid_radius: {}, sin: {}, cos: {}, \
-         bounding_radius: {}, exponent: {}, bounds: {} }}",
+         half_widening: {}, bounding_radius: {}, exponent: {}, bounds: {} }}",
         vector(&cone.centre),
         vector(&cone.axis),
         number(cone.half_length),
         number(cone.mid_radius),
         number(cone.sin),
         number(cone.cos),
+        number(cone.half_widening),
         number(cone.bounding_radius),
         cone.exponent,
         bounds(&cone.bounds)
@@ -370,8 +371,7 @@ fn surface<S: Literal>(surface: &Surface<S>) -> String {
 
 fn light<S: Literal>(light: &Light<S>) -> String {
     let (position, colour) = (vector(&light.position), vector(&light.colour));
-    let clearance = number(light.clearance);
-    format!("scene::Light {{ position: {position}, colour: {colour}, clearance: {clearance} }}")
+    format!("scene::Light {{ position: {position}, colour: {colour} }}")
 }
 
 fn link(link: &ObjectRef) -> String {

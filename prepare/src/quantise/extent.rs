@@ -43,6 +43,13 @@ impl Extent {
         x.hypot(y).hypot(z)
     }
 
+    /// Returns how far coordinates in a scene file are off: a few roundings of the largest to `f64`. Far from the
+    /// origin that is more than the error of hits in `f64`.
+    pub(super) fn rounding(&self) -> f64 {
+        let coordinates = self.everything.as_flattened().iter();
+        coordinates.fold(0.0, |reach, c| c.abs().max(reach)) * 2.0 * f64::EPSILON
+    }
+
     /// Returns the middle of the objects; that of everything if asked for or if there are no objects.
     pub fn middle(&self, everything: bool) -> Point {
         let [low, high] = if everything || self.objects[0][0] > self.objects[1][0] {

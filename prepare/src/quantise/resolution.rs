@@ -1,12 +1,16 @@
 //! Finds what is too fine for a format. A scene that fits a format can still be finer than the format's directions can
 //! resolve; then methods break (`octray stability` shows where).
 
+mod gaps;
+
+use super::Placement;
 use super::camera::length;
 use super::extent::{Extent, shape_box};
+use crate::limits::passed_on;
 use crate::settings::RenderSettings;
 use octray_core::quantize::Quantize;
 use octray_scenes::model::{Point, Scene, Shape};
-use octray_scenes::point::{add, times};
+use octray_scenes::point::{add, dot, times};
 use std::fmt;
 
 /// Something that is too fine for a format.
@@ -27,7 +31,9 @@ impl fmt::Display for TooFine {
         let Self { format, what, .. } = self;
         let [value, limit] = [self.value, self.limit].map(|x| match 1.0 / x {
             n if n < 10.0 => format!("1/{n:.1}"),
-            n => format!("1/{n:.0}"),
+            n if n < 1e9 => format!("1/{n:.0}"),
+            n if n < 1e15 => format!("1/{n:.0e}"),
+            _ => "0".into(),
         });
         write!(f, "{format} resolves {limit}, but {what} is {value}")
     }
@@ -49,10 +55,11 @@ const LIGHT: f64 = 8.0 / 255.0;
 /// The weight below which a ray's light is less than half a grey level.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
-/// Checks that format `S` resolves the pixels of a view, the eye's distance from spheres, the objects, and the light of
-/// repeated reflections. Within these limits no method breaks.
+/// Checks that format `S` resolves the pixels of a view, the eye's distance from curved surfaces, the objects, the gaps
+/// between surfaces one behind the other, the shine of surfaces, and the light of repeated reflections. Within these
+/// limits no method breaks.
 ///
-/// Gaps between objects are not checked; they should be no smaller than the smallest allowed object.
+/// Gaps are looked for between parallel planes, and between balls and cones that lie inside one another.
 ///
 /// # Errors
 /// The first thing that is too fine.
@@ -71,7 +78,8 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
     };
     let grain = grain::<S>();
     let rays = settings.rays(scene);
-    let diagonal = Extent::of(scene, &rays).diagonal();
+    let extent = Extent::of(scene, &rays);
+    let diagonal = extent.diagonal();
     let (pixel, whole) = match rays.is_parallel() {
         true => (rays.pixel(settings.size_of(scene)) / diagonal, "the scene"),
         false => (rays.pixel(settings.size_of(scene)), "a radian"),
@@ -84,19 +92,33 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
         check(size(scene, &object.shape) / diagonal, grain, &|| {
             name("the size of")
         })?;
-        if let Shape::Sphere { centre, radius } = object.shape {
-            for eye in rays.starts() {
-                let away = (length(add(eye, times(centre, -1.0))) - radius).abs();
+        for eye in rays.starts() {
+            if let Some(away) = distance(&object.shape, eye) {
                 check(away / diagonal, grain, &|| name("the eye's distance from"))?;
             }
         }
+    }
+    let placement = Placement::of::<S>(&extent);
+    // A ray has to start between the surfaces, and to tell them apart.
+    let off = S::surface_error(S::from_f64(placement.length(diagonal / 4.0)), S::ZERO);
+    let least = 2.0 * off.to_f64() / placement.scale() + S::SLACK / 8.0 * diagonal;
+    if let Some(gap) = gaps::narrow_gap(scene, least, extent.rounding()) {
+        check(gap.width / diagonal, least / diagonal, &|| {
+            let [a, b] = gap.objects.map(|i| i + 1);
+            format!("the gap between objects {a} and {b} as a share of the scene")
+        })?;
     }
     // Fixed point rounds the light of every ray by up to half a step.
     let Some(bits) = S::FRACTION_BITS else {
         return Ok(());
     };
     for (i, surface) in scene.surfaces.iter().enumerate() {
-        let rays = path(surface.reflect.max(surface.refract), settings.max_depth);
+        if surface.shine > 0.0 && surface.specular != [0.0; 3] {
+            check(surface.shine, 0.5f64.powi(bits as i32 + 1), &|| {
+                format!("the shine of surface {}, which counts as 0,", i + 1)
+            })?;
+        }
+        let rays = path(passed_on(surface), settings.max_depth);
         check(LIGHT / rays, 0.5f64.powi(bits as i32 + 1), &|| {
             let i = i + 1;
             format!("the error allowed to each of {rays:.0} rays via surface {i}")
@@ -113,6 +135,35 @@ fn path(share: f64, max_depth: u32) -> f64 {
         (LEAST_WEIGHT.ln() / share.ln()).floor()
     };
     1.0 + bounces.min(f64::from(max_depth))
+}
+
+/// Returns the distance of a point from the surface of a sphere or a cone.
+fn distance(shape: &Shape, point: Point) -> Option<f64> {
+    match *shape {
+        Shape::Sphere { centre, radius } => {
+            Some((length(add(point, times(centre, -1.0))) - radius).abs())
+        }
+        Shape::Cone {
+            base,
+            base_radius,
+            top,
+            top_radius,
+        } => {
+            // In the plane through the axis and the point: a height and a distance from the axis.
+            let along = add(top, times(base, -1.0));
+            let height = length(along);
+            let from_base = add(point, times(base, -1.0));
+            let up = dot(from_base, along) / height;
+            let aside = length(add(from_base, times(along, -up / height)));
+            // The nearest point of the side, a segment there.
+            let rise = top_radius - base_radius;
+            let share =
+                (up * height + (aside - base_radius) * rise) / (height * height + rise * rise);
+            let share = share.clamp(0.0, 1.0);
+            Some((up - share * height).hypot(aside - base_radius - share * rise))
+        }
+        _ => None,
+    }
 }
 
 fn has_tip(shape: &Shape) -> bool {

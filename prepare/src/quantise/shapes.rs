@@ -95,6 +95,11 @@ impl<S: Quantize> Quantised<S> {
             mid_radius: local((base_radius + top_radius) / 2.0),
             sin: S::from_f64(rise / slant),
             cos: S::from_f64(height / slant),
+            half_widening: local(if rise.abs() > Cone::<S>::FLAT * height {
+                rise.abs() / 2.0
+            } else {
+                0.0
+            }),
             bounding_radius: up(scaled + self.slack.to_f64()),
             exponent,
             bounds: self.bounds(shape_box(scene, shape), 0.0, place),

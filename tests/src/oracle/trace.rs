@@ -97,29 +97,36 @@ impl Tracer<'_> {
         let worth_tracing =
             |weight: f64| weight > 0.0 && weight >= self.cut_off && depth < self.max_depth;
 
-        let weight_reflected = weight * surface.reflect;
+        let leaving = facing.solid && facing.geometric.dot(incoming) > 0.0;
+        let kn = if leaving {
+            1.0 / surface.ior
+        } else {
+            surface.ior
+        };
+        let transmitted = refract(incoming, normal, kn);
+        // At total internal reflection the share that would be transmitted is mirrored, too.
+        let share_reflected = if transmitted.is_some() {
+            surface.reflect
+        } else {
+            surface.reflect + surface.refract
+        };
+
+        let weight_reflected = weight * share_reflected;
         if worth_tracing(weight_reflected) {
             counts.reflected += 1;
             let ray = meeting.leave(mirrored);
             sum =
-                sum + self.light_along(&ray, weight_reflected, depth + 1, counts) * surface.reflect;
+                sum + self.light_along(&ray, weight_reflected, depth + 1, counts) * share_reflected;
         }
 
         let weight_transmitted = weight * surface.refract;
-        if worth_tracing(weight_transmitted) {
-            let leaving = facing.solid && facing.geometric.dot(incoming) > 0.0;
-            let kn = if leaving {
-                1.0 / surface.ior
-            } else {
-                surface.ior
-            };
-            if let Some(transmitted) = refract(incoming, normal, kn) {
-                counts.transmitted += 1;
-                let ray = meeting.leave(transmitted);
-                sum = sum
-                    + self.light_along(&ray, weight_transmitted, depth + 1, counts)
-                        * surface.refract;
-            }
+        if let Some(transmitted) = transmitted
+            && worth_tracing(weight_transmitted)
+        {
+            counts.transmitted += 1;
+            let ray = meeting.leave(transmitted);
+            sum = sum
+                + self.light_along(&ray, weight_transmitted, depth + 1, counts) * surface.refract;
         }
         sum
     }

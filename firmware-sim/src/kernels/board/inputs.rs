@@ -69,9 +69,6 @@ pub(super) fn aimed(object: ObjectRef, fan: Fan) -> impl Iterator<Item = Ray<S>>
         };
         let (x, y) = (part(i % ACROSS), part(i / ACROSS));
         let target = centre + vec3(reach.x * x, reach.y * y, S::ZERO);
-        Ray {
-            origin,
-            direction: (target - origin).unit().0,
-        }
+        Ray::new(origin, (target - origin).unit().0)
     })
 }

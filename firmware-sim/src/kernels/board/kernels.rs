@@ -159,6 +159,7 @@ impl Accelerator<S, FEATURES> for Alone {
         _: &scene::Scene<'_, S, FEATURES>,
         ray: &Ray<S>,
         limit: S,
+        _: Option<&scene::Light<S>>,
         (): &mut (),
         _: &mut O,
     ) -> Option<ObjectRef> {

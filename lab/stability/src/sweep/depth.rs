@@ -116,9 +116,6 @@ fn light<S: Number>(prepared: &Prepared<S>, reflect: S, glow: S, max_depth: u32)
         stack: &mut (),
         shadow_cache: &mut [],
     };
-    let ray = Ray {
-        origin: Vec3::ZERO,
-        direction: vec3(S::ZERO, S::ZERO, S::ONE),
-    };
+    let ray = Ray::new(Vec3::ZERO, vec3(S::ZERO, S::ZERO, S::ONE));
     tracer.radiance(ray, &mut workspace, &mut ()).x
 }

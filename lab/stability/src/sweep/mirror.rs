@@ -93,10 +93,7 @@ pub(super) fn leaving<S: Number>(
     normal: Vec3<S>,
     surface: Surface<S>,
 ) -> Seen<S> {
-    let ray = Ray {
-        origin: Vec3::ZERO,
-        direction: incoming,
-    };
+    let ray = Ray::new(Vec3::ZERO, incoming);
     let plane = outline(normal, S::ZERO, &[]);
     let hit = Hit {
         t: S::ZERO,

@@ -1,6 +1,8 @@
 //! Rays that leave a surface: whether they hit it again (shadow acne), and whether they miss another close to it (light
 //! leaks).
 
+mod side;
+
 use crate::method::{About, Form, SHIPPED, Sweep};
 use crate::mock_accelerator;
 use crate::number::{self, Number, counted};
@@ -13,9 +15,11 @@ use octray_core::ray::Ray;
 use octray_core::vec3::Vec3;
 use octray_prepare::quantise::Prepared;
 use octray_scenes::model::Shape;
+use side::SIDES;
 
 /// Scenes of 10⁻⁴ to 10⁵ units. Rays leave a sphere or a square, and should hit another that is a hundredth of its size
-/// away. A hit on the surface that they leave is a false hit.
+/// away. A hit on the surface that they leave is a false hit. The forms named by shapes are the shipped one again, for
+/// rays that leave one side of one shape: inside to another place in it, outside anywhere.
 #[derive(Debug)]
 pub struct Offset;
 
@@ -48,6 +52,54 @@ impl Sweep for Offset {
                 name: "epsilon",
                 label: "not scaled; hits count beyond t = 0.0001",
             },
+            Form {
+                name: "sphere",
+                label: "sphere",
+            },
+            Form {
+                name: "sphere-inside",
+                label: "sphere, inner side",
+            },
+            Form {
+                name: "cylinder",
+                label: "cylinder as long as wide",
+            },
+            Form {
+                name: "cylinder-inside",
+                label: "the same, inner side",
+            },
+            Form {
+                name: "tube",
+                label: "cylinder ten times as long as wide",
+            },
+            Form {
+                name: "tube-inside",
+                label: "the same, inner side",
+            },
+            Form {
+                name: "cone",
+                label: "cone",
+            },
+            Form {
+                name: "cone-inside",
+                label: "cone, inner side",
+            },
+            Form {
+                name: "box",
+                label: "box",
+            },
+            Form {
+                name: "box-inside",
+                label: "box, inner side",
+            },
+            Form {
+                name: "square",
+                label: "square",
+            },
+            Form {
+                name: "square-behind",
+                label: "square, other side",
+            },
         ],
         limits: StateLimits {
             wrong: Some(limit(0.0, 0.05)),
@@ -66,8 +118,10 @@ impl Sweep for Offset {
 
     fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
         let mut all_errors = vec![ErrorStats::default(); 2];
+        let sides = SIDES.map(|side| side::measure::<S>(side, value));
         let mut random = Random::new(14);
         let Some(prepared) = surfaces(value).prepare::<S>() else {
+            all_errors.extend(sides);
             return all_errors;
         };
         for case in 0..96 {
@@ -90,6 +144,7 @@ impl Sweep for Offset {
                 errors.decide(true, next);
             }
         }
+        all_errors.extend(sides);
         all_errors
     }
 }
@@ -136,11 +191,9 @@ fn shipped<S: Number>(
     let t = shapes.hit(from, &ray, prepared.scene.diameter, &mut ())?;
     let hit = Hit { t, object: from };
     let seen = mock_accelerator::leaving(shapes, mock_accelerator::mirror(), &ray, hit);
-    let leaving = Ray {
-        origin: seen.follow.first()?.origin,
-        direction: away,
-    };
-    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.diameter, &mut ());
+    let mut leaving = *seen.follow.first()?;
+    leaving.direction = away;
+    let meets = |object| shapes.blocks(object, &leaving, prepared.scene.diameter, None, &mut ());
     Some([meets(from), meets(next)])
 }
 
@@ -159,10 +212,7 @@ fn epsilon<S: Number>(
     let least = S::from_f64(EPSILON);
     let met = |i, ray: &Ray<S>| roots(i, ray).into_iter().flatten().find(|t| *t > least);
     let ray = number::ray(eye, towards);
-    let leaving = Ray {
-        origin: ray.at(met(0, &ray)?),
-        direction: away,
-    };
+    let leaving = Ray::new(ray.at(met(0, &ray)?), away);
     Some([0, 1].map(|i| met(i, &leaving).is_some()))
 }
 

@@ -214,10 +214,8 @@ fn height<S: Number>() -> f64 {
 /// Applies octray's test: the polygon lies in z = 0, and the ray is perpendicular to it.
 pub fn shipped<S: Number>(query: Query<S>) -> bool {
     let [x, y] = query.point;
-    let ray = Ray {
-        origin: [x, y, S::from_f64(height::<S>())].into(),
-        direction: vector([0.0, 0.0, -1.0]),
-    };
+    let height = S::from_f64(height::<S>());
+    let ray = Ray::new([x, y, height].into(), vector([0.0, 0.0, -1.0]));
     let star = outline(vector([0.0, 0.0, 1.0]), S::ZERO, &query.corners);
     fixtures::hit(
         &polygon(&star, &query.corners),

@@ -130,10 +130,7 @@ fn measure<S: Number>(size: f64, errors: &mut ErrorStats) {
 fn along<S: Number>(block: &shape::Cuboid<S>, case: usize, random: &mut Random) -> Ray<S> {
     let axis = Axis::ALL[case % 3];
     let across = axis.others();
-    let mut ray = Ray {
-        origin: block.low,
-        direction: vector([0.0; 3]),
-    };
+    let mut ray = Ray::new(block.low, vector([0.0; 3]));
     ray.direction[axis] = S::ONE;
     ray.origin[across.0] = if case.is_multiple_of(2) {
         block.low

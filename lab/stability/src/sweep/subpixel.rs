@@ -64,10 +64,10 @@ impl Sweep for SubPixel {
                 continue;
             };
             // As the camera computes it: a vector of about ½, normalised.
-            let ray = Ray {
-                origin: vector(prepared.placement.point(eye)),
-                direction: vector::<S>(random::times(aim, 0.5 / length)).unit().0,
-            };
+            let ray = number::ray(
+                prepared.placement.point(eye),
+                vector::<S>(random::times(aim, 0.5 / length)).unit().0,
+            );
             let truth = share < 1.0;
             let sphere = &prepared.scene.spheres[0];
             let found = [

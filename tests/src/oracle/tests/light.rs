@@ -61,6 +61,24 @@ fn anything_between_a_point_and_a_light_blocks_it() {
 }
 
 #[test]
+fn what_holds_a_light_does_not_block_it() {
+    // The sphere is lit by its nearest point to the light.
+    let scene = "l 3 0 5 1 f 0.1 0.1 0.1 0.5 0.5 0.5 0 0 0 1 0 0 s 0 0 0 1";
+    let lit = pixel(scene);
+    for holder in [
+        "p 4 2 -9 5 9 -9 5 9 9 5 2 9 5",
+        "box 3 0 6 2 2 2",
+        "s 3 0 6 1",
+        "c 3 0 6 1 9 0 6 1",
+    ] {
+        assert_eq!(pixel(&format!("{scene} {holder}")), lit, "{holder}");
+    }
+    // But its other side does.
+    assert_eq!(pixel(&format!("{scene} box 2.5 0 4.5 1 1 1")), [26; 3]);
+    assert_eq!(pixel(&format!("{scene} s 3 0 4 1")), [26; 3]);
+}
+
+#[test]
 fn mirror_and_glass_contribute_their_shares() {
     // A mirror of 0.5 under the background.
     assert_eq!(
@@ -81,15 +99,29 @@ fn mirror_and_glass_contribute_their_shares() {
 
 #[test]
 fn polygons_are_entered_at_each_hit_and_spheres_are_left() {
-    // A ray at 45° to polygons of ior 0.5 is totally reflected, for either winding; its transmitted term is 0.
+    // A ray at 45° to polygons of ior 0.5 is totally reflected, for either winding: the background is mirrored.
     let wall = "f 0.4 0.4 0.4 0 0 0 0 0 0 1 0 0.75 0.5 p 4";
     for corners in [
         "-5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
         "-5 5 -5 5 5 5 5 -5 5 -5 -5 -5",
     ] {
         let picture = pixel_with(&format!("{wall} {corners}"), &Options::default());
-        assert_eq!((picture.rgb, picture.counts.transmitted), (vec![26; 3], 0));
+        assert_eq!(picture.rgb, [64, 102, 140]);
+        assert_eq!(picture.counts.transmitted, 0);
+        assert_eq!(picture.counts.reflected, 1);
     }
+    // A single ray brings what is mirrored anyhow, too: 0.25 · 0.4 + (0.25 + 0.75) · background.
+    let picture = pixel_with(
+        &format!(
+            "{} -5 -5 -5 5 -5 5 5 5 5 -5 5 -5",
+            wall.replace("0 0.75 0.5 p", "0.25 0.75 0.5 p")
+        ),
+        &Options::default(),
+    );
+    assert_eq!(
+        (picture.rgb, picture.counts.reflected),
+        (vec![77, 128, 179], 1)
+    );
     // With ior 2 they transmit it.
     let picture = pixel_with(
         &format!(
