@@ -33,7 +33,7 @@ impl Mesh {
         let scale = 10f64.powf(6.0 * rng.f64() - 3.0);
         let middle = [(); 3].map(|()| scale * 2.0 * (rng.f64() - 0.5));
         // Turned by any angle, or not at all: then rays run in the planes of axes.
-        let turned = seed % 2 == 0;
+        let turned = seed.is_multiple_of(2);
         let turn = [(); 3].map(|()| if turned { TAU * rng.f64() } else { 0.0 });
         let stretch = [(); 3].map(|()| scale * (0.4 + 0.6 * rng.f64()));
         let place = |p: Point| {

@@ -155,7 +155,11 @@ impl Room {
         let middle = [(); 3].map(|()| number(-1.0, 1.0) * away * size);
         let straight = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         Self {
-            axes: if seed % 3 == 0 { straight } else { turned },
+            axes: if seed.is_multiple_of(3) {
+                straight
+            } else {
+                turned
+            },
             size,
             middle,
             seed,

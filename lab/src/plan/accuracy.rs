@@ -211,7 +211,7 @@ impl Scope<'_> {
         if numbers != Numbers::Fixed {
             match self.attempt(accuracy, Format::F32) {
                 Err(Error::TooManyRays(rays)) => {
-                    accuracy.refused = Some(too_many(Format::F32, rays))
+                    accuracy.refused = Some(too_many(Format::F32, rays));
                 }
                 tried => accuracy.tried.push(tried?),
             }

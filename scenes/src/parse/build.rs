@@ -218,7 +218,8 @@ impl Builder {
         }
         let too_large = |_| entity.fault(0..0, Fault::TooLarge);
         let index = |list: &[Point]| u32::try_from(list.len()).map_err(too_large);
-        (index(&self.vertices)?, index(&self.normals)?);
+        index(&self.vertices)?;
+        index(&self.normals)?;
         let (first, first_normal) = (first as u32, first_normal as u32);
         Ok(Some(match is_patch {
             true => Shape::Patch {
