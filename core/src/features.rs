@@ -43,11 +43,16 @@ pub const REFLECTION: FeatureSet = 1 << 10;
 /// Transmitted rays.
 pub const REFRACTION: FeatureSet = 1 << 11;
 
+/// A background that is not of one colour.
+pub const SKY: FeatureSet = 1 << 12;
+/// Surfaces with a checker.
+pub const CHECKERS: FeatureSet = 1 << 13;
+
 /// Everything: for programs that do not know the scene beforehand.
-pub const ALL_FEATURES: FeatureSet = (1 << 12) - 1;
+pub const ALL_FEATURES: FeatureSet = (1 << 14) - 1;
 
 /// Names and values, to write a set as text.
-pub const NAMES: [(&str, FeatureSet); 12] = [
+pub const NAMES: [(&str, FeatureSet); 14] = [
     ("SPHERES", SPHERES),
     ("TRIANGLES", TRIANGLES),
     ("POLYGONS", POLYGONS),
@@ -60,6 +65,8 @@ pub const NAMES: [(&str, FeatureSet); 12] = [
     ("FRACTIONS", FRACTIONS),
     ("REFLECTION", REFLECTION),
     ("REFRACTION", REFRACTION),
+    ("SKY", SKY),
+    ("CHECKERS", CHECKERS),
 ];
 
 /// The shapes of one kind.

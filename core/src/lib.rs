@@ -8,6 +8,7 @@
 //! | [`vec3`], [`ray`] | vectors, rays, axis-aligned bounding boxes (AABB) |
 //! | [`object`], [`shape`] | spheres, cones, boxes, polygons: where a ray meets them, and their surface there |
 //! | [`scene`], [`camera`] | slices of shapes, surfaces and lights; where rays start |
+//! | [`checker`] | surfaces of two colours |
 //! | [`features`] | what a scene uses, so that no code for the rest is linked |
 //! | [`accel`] | which objects a ray is tested against: an 8-wide BVH, the same in little memory, octrees, or all of them |
 //! | [`trace`], `shade` | Whitted's recursion on a bounded stack; the light of a surface |
@@ -75,6 +76,7 @@
 pub mod accel;
 mod array;
 pub mod camera;
+pub mod checker;
 pub mod features;
 pub mod frame;
 pub mod object;

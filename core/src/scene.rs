@@ -1,6 +1,8 @@
 //! A scene in the arithmetic it is rendered in: borrowed slices, in memory or flash.
 
-use crate::features::{ALL_FEATURES, FeatureSet};
+use crate::accel::AccelScalar;
+use crate::checker::Checker;
+use crate::features::{self, ALL_FEATURES, FeatureSet};
 use crate::object::{ObjectKind, ObjectRef};
 use crate::scalar::{Exponent, Scalar};
 use crate::shape::Shapes;
@@ -58,8 +60,12 @@ pub struct Scene<'a, S: Scalar, const FEATURES: FeatureSet = ALL_FEATURES> {
     pub surfaces: &'a [Surface<S>],
     /// The lights.
     pub lights: &'a [Light<S>],
-    /// The light of a ray that hits nothing.
+    /// The light of a ray that hits nothing; with a sky, of one straight down.
     pub background: Vec3<S>,
+    /// How the background changes from there upward.
+    pub sky: Sky<S>,
+    /// The checkers of surfaces.
+    pub checkers: &'a [Checker<S>],
     /// No two points of shapes, lights and viewpoint are farther apart; no hit is looked for beyond.
     pub diameter: S,
 }
@@ -112,6 +118,18 @@ pub struct Surface<S> {
     pub entering: S,
     /// n1/n2 on the way out: the index of refraction.
     pub leaving: S,
+    /// Its checker in [`Scene::checkers`], counted from 1; 0 if it has none.
+    pub checker: u32,
+}
+
+/// A background that changes with the ray's direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Sky<S> {
+    /// What is added for a level ray; twice that for one straight up.
+    pub rise: Vec3<S>,
+    /// The unit vector straight up.
+    pub up: Vec3<S>,
 }
 
 /// A point light.
@@ -149,8 +167,33 @@ impl<'a, S: Scalar, const FEATURES: FeatureSet> Scene<'a, S, FEATURES> {
             surfaces,
             lights,
             background,
+            sky: Sky::default(),
+            checkers: &[],
             diameter,
         }
+    }
+
+    /// The light along a ray that hits nothing.
+    #[inline(always)]
+    pub fn background_along(&self, direction: Vec3<S>) -> Vec3<S> {
+        if features::contains(FEATURES, features::SKY) && self.sky.rise != Vec3::ZERO {
+            self.background + self.sky.rise * (S::ONE + direction.dot(self.sky.up))
+        } else {
+            self.background
+        }
+    }
+
+    /// What holds instead of a surface's colours at a point, if anything does.
+    #[inline(always)]
+    pub(crate) fn checker_at(&self, surface: &Surface<S>, point: Vec3<S>) -> Option<&Checker<S>>
+    where
+        S: AccelScalar,
+    {
+        if !features::contains(FEATURES, features::CHECKERS) || surface.checker == 0 {
+            return None;
+        }
+        let checker = self.checkers.get(surface.checker as usize - 1)?;
+        checker.contains(point).then_some(checker)
     }
 
     /// An object's attributes.

@@ -118,7 +118,7 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
             }
             observer.ray(next.kind);
             let light = match self.nearest(&next.ray, workspace, observer) {
-                None => self.scene.background,
+                None => self.scene.background_along(next.ray.direction),
                 Some(hit) => {
                     observer.hit(next.kind);
                     self.shade_hit(&next, hit, workspace, &mut waiting, observer)
@@ -172,6 +172,18 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
         let attributes = scene.attributes_of(hit.object);
         let Some(surface) = scene.surfaces.get(attributes.surface as usize) else {
             return Vec3::ZERO;
+        };
+        let other;
+        let surface = match scene.checker_at(surface, contact.point) {
+            Some(checker) => {
+                other = Surface {
+                    ambient: checker.ambient,
+                    diffuse: checker.diffuse,
+                    ..*surface
+                };
+                &other
+            }
+            None => surface,
         };
         let mut normal = contact.outward;
         if features::contains(FEATURES, features::PATCHES)

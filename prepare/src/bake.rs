@@ -183,7 +183,9 @@ fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet
     need(features::BANDS, !scene.bands.is_empty());
     need(features::PATCHES, !scene.patches.is_empty());
     need(features::SHADOWS, !scene.lights.is_empty());
+    need(features::SKY, scene.sky.rise != Vec3::ZERO);
     for surface in used_surfaces(prepared) {
+        need(features::CHECKERS, surface.checker != 0);
         let shines = surface.specular != Vec3::ZERO;
         need(features::SPECULAR, shines);
         need(

@@ -47,18 +47,26 @@ pub fn bounds(scene: &Scene, max_depth: u32) -> Vec<Bound> {
     let mut bounds = Vec::new();
     let mut bound = |value, what| bounds.push(Bound { what, value });
     let largest = |c: [f64; 3]| c.into_iter().fold(0.0, f64::max);
-    bound(largest(scene.background), "the background".into());
+    let zenith = scene.zenith.unwrap_or_default();
+    bound(
+        largest(scene.background).max(largest(zenith)),
+        "the background".into(),
+    );
     for (i, light) in scene.lights.iter().enumerate() {
         let what = format!("the brightness of light {}", i + 1);
         bound(largest(light.colour), what);
     }
     for (i, surface) in scene.surfaces.iter().enumerate() {
         let name = |what: &str| format!("{what} of surface {}", i + 1);
-        let response = [0, 1, 2].map(|c| surface.diffuse[c] + surface.specular[c]);
+        // Of a checker's two colours the larger.
+        let other = (surface.checker).map_or([[0.0; 3]; 2], |c| [c.ambient, c.diffuse]);
+        let [ambient, diffuse] = [(surface.ambient, other[0]), (surface.diffuse, other[1])]
+            .map(|(a, b)| [0, 1, 2].map(|c| f64::max(a[c], b[c])));
+        let response = [0, 1, 2].map(|c| diffuse[c] + surface.specular[c]);
         bound(largest(response), name("diffuse and specular light"));
         let lit = [0, 1, 2].map(|c| {
             let light: f64 = scene.lights.iter().map(|l| l.colour[c]).sum();
-            surface.ambient[c] + light * response[c]
+            ambient[c] + light * response[c]
         });
         bound(largest(lit), name("the light"));
         let bend = surface.ior.max(1.0 / surface.ior);

@@ -8,6 +8,7 @@
 //! coarse for.
 
 mod camera;
+mod checker;
 mod extent;
 mod plane;
 mod resolution;
@@ -18,11 +19,12 @@ pub use extent::Extent;
 pub use resolution::{TooFine, grain, resolution};
 
 use crate::settings::RenderSettings;
+use octray_core::checker::Checker;
 use octray_core::frame::Frame;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::quantize::Quantize;
 use octray_core::scalar::{Exponent, Scalar};
-use octray_core::scene::{Attributes, Light, Scene, Surface};
+use octray_core::scene::{Attributes, Light, Scene, Sky, Surface};
 use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere, Triangle};
 use octray_core::vec3::Vec3;
 use octray_scenes::model;
@@ -108,6 +110,10 @@ pub struct Quantised<S: Scalar> {
     pub lights: Vec<Light<S>>,
     /// The background.
     pub background: Vec3<S>,
+    /// How it changes with the direction.
+    pub sky: Sky<S>,
+    /// The checkers of surfaces.
+    pub checkers: Vec<Checker<S>>,
     /// How far hits may be off their shapes.
     pub slack: S,
     /// The largest distance between two points.
@@ -152,8 +158,16 @@ pub fn quantise<S: Quantize>(
             })
             .collect(),
         background: vector(scene.background),
+        sky: checker::sky(scene),
         ..Quantised::default()
     };
+    for (of_surface, surface) in scene.surfaces.iter().zip(&mut quantised.surfaces) {
+        if let Some(of_surface) = &of_surface.checker {
+            let place = &placement;
+            quantised.checkers.push(checker::checker(of_surface, place));
+            surface.checker = quantised.checkers.len() as u32;
+        }
+    }
     for (id, object) in scene.objects.iter().enumerate() {
         quantised.add(scene, id as u32, object, &placement);
     }
@@ -176,6 +190,8 @@ impl<S: Quantize> Quantised<S> {
             surfaces: &self.surfaces,
             lights: &self.lights,
             background: self.background,
+            sky: self.sky,
+            checkers: &self.checkers,
             diameter: self.diameter,
         }
     }
@@ -257,6 +273,7 @@ fn surface<S: Quantize>(surface: &model::Surface) -> Surface<S> {
         refract: S::from_f64(surface.refract),
         entering: S::from_f64(1.0 / surface.ior),
         leaving: S::from_f64(surface.ior),
+        checker: 0,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Checks of the invariants of [`crate::model`]: what makes a scene renderable.
 
-use crate::model::{Camera, Light, Object, Point, Scene, Shape, Surface};
+use crate::model::{Camera, Checker, Light, Object, Point, Scene, Shape, Surface};
 use crate::point;
 use std::fmt;
 use thiserror::Error;
@@ -65,6 +65,9 @@ pub enum Fault {
     /// A colour, coefficient, brightness or exponent below 0.
     #[error("negative colour or coefficient")]
     Negative,
+    /// A checker of size 0 or below.
+    #[error("checker with a size that is not above 0")]
+    CheckerSize,
     /// A refraction index of 0 or below on a transparent surface.
     #[error("refraction index not above 0 on a transparent surface")]
     RefractionIndex,
@@ -142,6 +145,7 @@ pub fn scene(scene: &Scene) -> Result<(), Broken> {
         resolution(f64::from(size)).map_err(at(Place::Resolution))?;
     }
     coefficients(&scene.background).map_err(at(Place::Background))?;
+    coefficients(&scene.zenith.unwrap_or_default()).map_err(at(Place::Background))?;
     for (index, value) in scene.lights.iter().enumerate() {
         light(value).map_err(at(Place::Light(index)))?;
     }
@@ -202,18 +206,32 @@ pub(crate) fn surface(surface: &Surface) -> Result<(), Fault> {
         reflect,
         refract,
         ior,
+        checker: of_checker,
     } = surface;
     for colour in [ambient, diffuse, specular] {
         coefficients(colour)?;
     }
     coefficients(&[*shine, *reflect, *refract])?;
     finite(&[*ior])?;
+    of_checker.as_ref().map_or(Ok(()), checker)?;
     let allowed = if *refract > 0.0 {
         *ior > 0.0
     } else {
         *ior == 1.0
     };
     ensure(allowed, Fault::RefractionIndex)
+}
+
+pub(crate) fn checker(checker: &Checker) -> Result<(), Fault> {
+    let Checker {
+        size,
+        ambient,
+        diffuse,
+    } = checker;
+    coefficients(ambient)?;
+    coefficients(diffuse)?;
+    finite(&[*size])?;
+    ensure(*size > 0.0, Fault::CheckerSize)
 }
 
 pub(crate) fn coefficients(numbers: &[f64]) -> Result<(), Fault> {

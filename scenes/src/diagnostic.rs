@@ -63,6 +63,8 @@ pub enum MistakeKind {
     View,
     /// An object before the first surface.
     NoSurface,
+    /// A checker that does not follow a surface.
+    LooseChecker,
     /// A second occurrence of something that a scene has once.
     Duplicate {
         /// The keyword.

@@ -22,6 +22,9 @@ pub struct Scene {
     pub height: u32,
     /// The colour of a ray that hits nothing.
     pub background: Colour,
+    /// The colour of such a ray that goes straight up, if the sky is not of one colour: `background` is that of a ray
+    /// straight down then.
+    pub zenith: Option<Colour>,
     /// Point lights, in file order.
     pub lights: Vec<Light>,
     /// Surface properties, in file order.
@@ -45,6 +48,7 @@ impl Default for Scene {
             width: 512,
             height: 512,
             background: [0.0; 3],
+            zenith: None,
             lights: Vec::new(),
             surfaces: Vec::new(),
             objects: Vec::new(),
@@ -119,6 +123,20 @@ pub struct Surface {
     pub refract: f64,
     /// Refraction index of the inside; > 0 where `refract` > 0, else 1.
     pub ior: f64,
+    /// Other colours in every second cube of space.
+    pub checker: Option<Checker>,
+}
+
+/// The colours of a surface where ⌊x/s⌋ + ⌊y/s⌋ + ⌊z/s⌋ is odd, s the size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checker {
+    /// The side of the cubes, > 0.
+    pub size: f64,
+    /// [`Surface::ambient`] there.
+    pub ambient: Colour,
+    /// [`Surface::diffuse`] there.
+    pub diffuse: Colour,
 }
 
 impl Default for Surface {
@@ -131,6 +149,7 @@ impl Default for Surface {
             reflect: 0.0,
             refract: 0.0,
             ior: 1.0,
+            checker: None,
         }
     }
 }

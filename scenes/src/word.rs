@@ -34,6 +34,8 @@ pub enum Keyword {
     Light,
     /// `f`
     Surface,
+    /// `checker`
+    Checker,
     /// `s`
     Sphere,
     /// `c`
@@ -76,6 +78,7 @@ impl Keyword {
             Self::Background => "b",
             Self::Light => "l",
             Self::Surface => "f",
+            Self::Checker => "checker",
             Self::Sphere => "s",
             Self::Cone => "c",
             Self::Cuboid => "box",
@@ -95,11 +98,16 @@ impl Keyword {
                 "2 numbers: height then width, or width then height inside the `v` of NFF"
             }
             Self::View => "`parallel` or `perspective`",
-            Self::Background => "3 numbers: red green blue",
+            Self::Background => {
+                "3 numbers (red green blue), or 6: those of the lowest and of the highest sky"
+            }
             Self::Light => "3 numbers (x y z), 4 (x y z brightness) or 6 (x y z red green blue)",
             Self::Surface => {
                 "8 numbers (r g b Kd Ks shine T ior), or 12 or 13 \
                  (ar ag ab dr dg db sr sg sb shine reflect refract [ior])"
+            }
+            Self::Checker => {
+                "4 numbers after an `f` of 8 (size r g b), or 7 (size ar ag ab dr dg db)"
             }
             Self::Sphere => "4 numbers: x y z radius",
             Self::Cone => "8 numbers: base x y z radius, top x y z radius",
@@ -122,6 +130,7 @@ impl Keyword {
             "b" => Self::Background,
             "l" => Self::Light,
             "f" => Self::Surface,
+            "checker" => Self::Checker,
             "s" => Self::Sphere,
             "c" => Self::Cone,
             "box" => Self::Cuboid,

@@ -69,7 +69,11 @@ fn header(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "view parallel")?;
     }
     writeln!(out, "resolution {} {}", scene.height, scene.width)?;
-    writeln!(out, "b {}", Triple(&scene.background))
+    write!(out, "b {}", Triple(&scene.background))?;
+    if let Some(zenith) = &scene.zenith {
+        write!(out, "  {}", Triple(zenith))?;
+    }
+    writeln!(out)
 }
 
 fn write_light(light: &Light, out: &mut impl Write) -> io::Result<()> {
@@ -90,6 +94,7 @@ fn write_surface(surface: &Surface, out: &mut impl Write) -> io::Result<()> {
         reflect,
         refract,
         ior,
+        checker,
     } = surface;
     let [ambient, diffuse, specular] = [ambient, diffuse, specular].map(Triple);
     let [shine, reflect, refract] = [*shine, *reflect, *refract].map(Number);
@@ -100,7 +105,16 @@ fn write_surface(surface: &Surface, out: &mut impl Write) -> io::Result<()> {
     if *ior != 1.0 {
         write!(out, " {}", Number(*ior))?;
     }
-    writeln!(out)
+    writeln!(out)?;
+    if let Some(checker) = checker {
+        let (ambient, diffuse) = (Triple(&checker.ambient), Triple(&checker.diffuse));
+        writeln!(
+            out,
+            "checker {}  {ambient}  {diffuse}",
+            Number(checker.size)
+        )?;
+    }
+    Ok(())
 }
 
 fn write_object(scene: &Scene, object: &Object, out: &mut impl Write) -> io::Result<()> {
@@ -199,16 +213,17 @@ mod tests {
     fn every_entity_comes_back() {
         let source = "
             v 1 2 3 at 0 0 0 up 0 0 1 angle 45.5 hither 1 resolution 480 640
-            view parallel  b 0.1 0.2 0.3
+            view parallel  b 0.1 0.2 0.3 0.5 0.6 1
             l 1 2 3  l 1 2 3 0.5  l 1 2 3 1 0.5 0.25
             f 1 0.5 0.25 0.8 0.2 12.5 0 0
+            checker 0.125 1 0 0.5
             s 1e-7 -2 3e20 0.1
             f 1 1 1 1 1 1 1 1 1 5 0.5 0
             f 0.1 0 0 0 1 0 0 0 1 0 0 0.9 1.5
             c 0 0 0 1 0 0 2 0  box 1 1 1 2 3 4
             p 4 0 0 0 1 0 0 1 1 0 0 1 0
             pp 3 0 0 0 0 0 1 1 0 0 0 1 1 0 1 0 0 0 2
-            f 0 0 0 0 0 0 0 0 0 0 0 0";
+            f 0 0 0 0 0 0 0 0 0 0 0 0  checker 2e5 0.1 0.2 0.3 0.4 0.5 0.6";
         let scene = crate::parse(source).unwrap();
         let mut text = Vec::new();
         write(&scene, &mut text).unwrap();

@@ -1,7 +1,9 @@
 //! Properties of every source and every scene.
 
 use octray_scenes::diagnostic::{MOST, MistakeKind};
-use octray_scenes::model::{Camera, Light, Object, Point, Projection, Scene, Shape, Surface};
+use octray_scenes::model::{
+    Camera, Checker, Light, Object, Point, Projection, Scene, Shape, Surface,
+};
 use octray_scenes::{check, parse, write};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -163,9 +165,10 @@ fn surface() -> impl Strategy<Value = Surface> {
         ray(),
         ray(),
         positive(),
+        prop::option::of((positive(), colour(), colour())),
     )
         .prop_map(
-            |(ambient, diffuse, specular, shine, reflect, refract, ior)| Surface {
+            |(ambient, diffuse, specular, shine, reflect, refract, ior, checker)| Surface {
                 ambient,
                 diffuse,
                 specular,
@@ -173,6 +176,11 @@ fn surface() -> impl Strategy<Value = Surface> {
                 reflect,
                 refract,
                 ior: if refract > 0.0 { ior } else { 1.0 },
+                checker: checker.map(|(size, ambient, diffuse)| Checker {
+                    size,
+                    ambient,
+                    diffuse,
+                }),
             },
         )
 }
@@ -249,29 +257,33 @@ fn scene() -> impl Strategy<Value = Scene> {
         camera(),
         (1u32..=65535, 1u32..=65535),
         prop::array::uniform3(coefficient()),
+        prop::option::of(prop::array::uniform3(coefficient())),
         vec(light, 0..4),
         vec(group, 0..5),
     )
-        .prop_map(|(camera, (width, height), background, lights, groups)| {
-            let mut scene = Scene {
-                camera,
-                width,
-                height,
-                background,
-                lights,
-                surfaces: vec![],
-                objects: vec![],
-                vertices: vec![],
-                normals: vec![],
-            };
-            for (index, (surface, parts)) in groups.into_iter().enumerate() {
-                scene.surfaces.push(surface);
-                parts
-                    .into_iter()
-                    .for_each(|part| add(&mut scene, index as u32, part));
-            }
-            scene
-        })
+        .prop_map(
+            |(camera, (width, height), background, zenith, lights, groups)| {
+                let mut scene = Scene {
+                    camera,
+                    width,
+                    height,
+                    background,
+                    zenith,
+                    lights,
+                    surfaces: vec![],
+                    objects: vec![],
+                    vertices: vec![],
+                    normals: vec![],
+                };
+                for (index, (surface, parts)) in groups.into_iter().enumerate() {
+                    scene.surfaces.push(surface);
+                    parts
+                        .into_iter()
+                        .for_each(|part| add(&mut scene, index as u32, part));
+                }
+                scene
+            },
+        )
         .prop_filter("a camera that can see", |scene| check::scene(scene).is_ok())
 }
 

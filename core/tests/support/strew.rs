@@ -57,7 +57,7 @@ pub fn picture(seed: u64) -> String {
     }
     if strew.rng.bool() {
         let [r, g, b] = strew.colour();
-        strew.line(&format!("b {r} {g} {b}"));
+        strew.line(&format!("b {r} {g} {b}{}", strew.zenith(seed)));
     }
     strew.lights(seed % 4 == 3);
     if ground {
@@ -413,6 +413,29 @@ impl Strew {
         }
     }
 
+    /// The sky's other colour, in a third of the scenes.
+    fn zenith(&self, seed: u64) -> String {
+        let mut rng = Rng::with_seed(!seed);
+        match rng.u8(..3) {
+            0 => format!(" {} {} {}", rng.f64(), rng.f64(), rng.f64()),
+            _ => String::new(),
+        }
+    }
+
+    /// A checker of a surface, a fifth of the time; its cubes are no fraction of the scene.
+    fn checker(&self, nff: bool) -> String {
+        let mut rng = Rng::with_seed(self.text.len() as u64);
+        if rng.u8(..5) > 0 {
+            return String::new();
+        }
+        let size = self.scale * (0.07 + 0.5 * rng.f64());
+        let colours = if nff { 3 } else { 6 };
+        let colours: String = (0..colours)
+            .map(|_| format!(" {}", 0.5 * rng.f64()))
+            .collect();
+        format!("\nchecker {size}{colours}")
+    }
+
     fn surface(&mut self, nff: bool) {
         let [r, g, b] = self.colour();
         let shines = [0.0, 0.5, 1.0, 3.0827, 20.0, 87.3, 1000.0, 100_000.0];
@@ -442,6 +465,7 @@ impl Strew {
             };
             format!("f {ar} {ag} {ab} {r} {g} {b} {sr} {sg} {sb} {shine} {reflect} {refract}{end}")
         };
+        let line = line + &self.checker(nff);
         self.line(&line);
     }
 }

@@ -5,7 +5,7 @@ use octray_core::object::ObjectRef;
 use octray_core::observe::Observer;
 use octray_core::ray::Ray;
 use octray_core::scalar::Scalar;
-use octray_core::scene::{Attributes, Light, Scene, Surface};
+use octray_core::scene::{Attributes, Light, Scene, Sky, Surface};
 use octray_core::shape::Shapes;
 use octray_core::trace::{QueuedRay, TraceScalar, Tracer, Workspace};
 use octray_core::vec3::Vec3;
@@ -91,6 +91,8 @@ pub fn leaving<S: TraceScalar>(
         surfaces: &surfaces,
         lights: &[],
         background: Vec3::ZERO,
+        sky: Sky::default(),
+        checkers: &[],
         diameter: S::MAX,
     };
     let tracer = Tracer {

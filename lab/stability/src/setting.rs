@@ -26,6 +26,7 @@ impl Setting {
             width: 1,
             height: 1,
             background: [0.0; 3],
+            zenith: None,
             lights: vec![Light {
                 position: eye,
                 colour: [1.0; 3],

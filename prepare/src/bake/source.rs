@@ -5,6 +5,7 @@ use crate::literal::Literal;
 use crate::quantise::Prepared;
 use octray_core::accel;
 use octray_core::camera::Projection;
+use octray_core::checker::Checker;
 use octray_core::features::{self, FeatureSet};
 use octray_core::frame::FrameParams;
 use octray_core::object::{ObjectKind, ObjectRef};
@@ -78,6 +79,7 @@ impl<S: Literal> Tables<'_, S> {
             + size_of_val(scene.scene().attributes)
             + size_of_val(self.baked_links())
             + size_of_val(&*scene.surfaces)
+            + size_of_val(&*scene.checkers)
             + size_of_val(&*scene.lights)
             + size_of_val(self.tree.words())
     }
@@ -117,6 +119,13 @@ impl<S: Literal> Display for Tables<'_, S> {
             attributes,
         )?;
         array(f, "SURFACES", "scene::Surface<S>", &scene.surfaces, surface)?;
+        array(
+            f,
+            "CHECKERS",
+            "checker::Checker<S>",
+            &scene.checkers,
+            checker,
+        )?;
         array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
         array(f, "LINKS", "object::ObjectRef", self.baked_links(), link)?;
         array(f, "WORDS", "u32", self.tree.words(), |w| {
@@ -131,10 +140,13 @@ impl<S: Literal> Display for Tables<'_, S> {
              outlines: shape::Outlines {{ corners: &CORNERS, bands: &BANDS, edges: &EDGES }},\n        \
              patches: &PATCHES,\n        normals: &NORMALS,\n        slack: {},\n    }},\n    \
              attributes: &ATTRIBUTES,\n    first: {:?},\n    surfaces: &SURFACES,\n    \
-             lights: &LIGHTS_,\n    background: {},\n    diameter: {},\n}};",
+             lights: &LIGHTS_,\n    background: {},\n    \
+             sky: scene::Sky {{ rise: {}, up: {} }},\n    checkers: &CHECKERS,\n    diameter: {},\n}};",
             number(scene.slack),
             seen.first,
             vector(&scene.background),
+            vector(&scene.sky.rise),
+            vector(&scene.sky.up),
             number(scene.diameter),
         )?;
         let tree = match &self.tree {
@@ -189,7 +201,7 @@ impl<S: Literal> Tables<'_, S> {
         writeln!(
             f,
             "// {title}, baked by octray in {} at {} x {}.\n\
-             use octray_core::{{accel, camera, features, frame, object, scalar, scene, shape, vec3}};\n\n\
+             use octray_core::{{accel, camera, checker, features, frame, object, scalar, scene, shape, vec3}};\n\n\
              /// The arithmetic.\npub type S = {};\n/// The kind of tree.\npub type Tree = {tree};\n\
              /// The features that the scene uses.\npub const FEATURES: features::FeatureSet = {needed};\n\
              /// The scene's name.\npub const NAME: &str = {name:?};\n\
@@ -356,7 +368,7 @@ fn surface<S: Literal>(surface: &Surface<S>) -> String {
     format!(
         "scene::Surface {{ ambient: {}, diffuse: {}, specular: {}, \
          shine: scalar::Exponent {{ whole: {}, fraction: {} }}, reflect: {}, refract: {}, \
-         entering: {}, leaving: {} }}",
+         entering: {}, leaving: {}, checker: {} }}",
         vector(&surface.ambient),
         vector(&surface.diffuse),
         vector(&surface.specular),
@@ -365,7 +377,20 @@ fn surface<S: Literal>(surface: &Surface<S>) -> String {
         number(surface.reflect),
         number(surface.refract),
         number(surface.entering),
-        number(surface.leaving)
+        number(surface.leaving),
+        surface.checker
+    )
+}
+
+fn checker<S: Literal>(checker: &Checker<S>) -> String {
+    format!(
+        "checker::Checker {{ ambient: {}, diffuse: {}, origin: {:?}, cells: {:?}, shift: {}, odd: {} }}",
+        vector(&checker.ambient),
+        vector(&checker.diffuse),
+        checker.origin,
+        checker.cells,
+        checker.shift,
+        checker.odd
     )
 }
 

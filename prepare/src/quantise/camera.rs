@@ -148,16 +148,27 @@ impl RenderSettings {
             let bits = S::FRACTION_BITS.unwrap_or(20) as i32;
             1.0 + (f64::from(pixels) * 2f64.powi(3 - bits)).ceil()
         };
-        let region = active(
-            rays,
-            extent,
-            width,
-            height,
-            margin(width),
-            margin(height),
-            block,
-        );
+        let region = match scene.zenith {
+            Some(_) => whole(width, height),
+            None => active(
+                rays,
+                extent,
+                width,
+                height,
+                margin(width),
+                margin(height),
+                block,
+            ),
+        };
         Frame::new(camera, width, height, block, self.samples, region)
+    }
+}
+
+/// Returns all pixels.
+fn whole(width: u32, height: u32) -> Region {
+    Region {
+        columns: 0..width,
+        rows: 0..height,
     }
 }
 
@@ -176,16 +187,13 @@ fn active(
         columns: 0..0,
         rows: 0..0,
     };
-    let all = Region {
-        columns: 0..width,
-        rows: 0..height,
-    };
+    let all = whole(width, height);
     let [low, high] = extent.objects;
     if low[0] > high[0] {
         return nothing;
     }
     // p − origin = a forward + b right + c up by Cramer's rule.
-    let whole = dot(cross(rays.right, rays.up), rays.forward);
+    let volume = dot(cross(rays.right, rays.up), rays.forward);
     let slack = extent.diagonal() * 1e-6;
     let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let (mut before, mut behind) = (0, 0);
@@ -198,9 +206,9 @@ fn active(
             };
             side - rays.origin[i]
         });
-        let a = dot(cross(rays.right, rays.up), p) / whole;
-        let b = dot(cross(rays.up, rays.forward), p) / whole;
-        let c = dot(cross(rays.forward, rays.right), p) / whole;
+        let a = dot(cross(rays.right, rays.up), p) / volume;
+        let b = dot(cross(rays.up, rays.forward), p) / volume;
+        let c = dot(cross(rays.forward, rays.right), p) / volume;
         if a <= 0.0 {
             behind += 1;
         } else {

@@ -89,6 +89,10 @@ pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
             "object before the first surface",
             "expected an `f` with the surface of this object before it",
         ),
+        MistakeKind::LooseChecker => owned(
+            "`checker` that does not follow a surface",
+            "expected the `f` that it belongs to right before it",
+        ),
         MistakeKind::Duplicate { keyword, .. } => (
             format!("a second `{}`", keyword.text()),
             "expected only one in a file".to_owned(),
@@ -178,6 +182,7 @@ fn expected(fault: &Fault, found: &str) -> String {
         Fault::RefractionIndex => "above 0, as the surface lets light through",
         Fault::ViewpointInPlane => "a z other than 0: the picture plane is z = 0",
         Fault::FromIsAt => return "same as the viewpoint; expected another place".to_owned(),
+        Fault::CheckerSize => "a size above 0",
         Fault::ZeroUp => "a direction of any other length",
         Fault::UpParallel => "a direction that differs from the view",
         Fault::Angle => "above 0 and below 180",

@@ -107,6 +107,7 @@ impl Stage {
             width: 512,
             height: 512,
             background: [0.35, 0.52, 0.72],
+            zenith: None,
             lights: vec![
                 light([0.8, -0.3, 1.0], 0.7),
                 light([-0.7, -0.8, 0.9], 0.35),

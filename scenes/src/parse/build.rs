@@ -4,7 +4,7 @@ use super::entity::Entity;
 use super::header::Header;
 use crate::check::{self, Fault, Oddity};
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink, WarningKind};
-use crate::model::{Light, Object, Point, Scene, Shape, Surface};
+use crate::model::{Checker, Light, Object, Point, Scene, Shape, Surface};
 use crate::word::{Keyword, Span};
 
 /// A scene under construction.
@@ -15,6 +15,9 @@ pub(super) struct Builder {
     /// Lights without a colour; theirs depends on the total number of lights.
     colourless: Vec<usize>,
     surfaces: Vec<Surface>,
+    /// What a checker's colour is multiplied by, if the last entity was a surface: NFF's Kd, or `None` for a surface of
+    /// the thesis, whose checker has an ambient colour, too.
+    checkered_by: Option<Option<f64>>,
     objects: Vec<Object>,
     vertices: Vec<Point>,
     normals: Vec<Point>,
@@ -35,8 +38,13 @@ impl Builder {
             mistakes.push(MistakeKind::NoSurface, entity.span);
             self.surfaces.push(Surface::default()); // Report it once.
         }
+        let after_surface = match entity.keyword {
+            Keyword::Checker => self.checkered_by,
+            _ => None,
+        };
+        self.checkered_by = None;
         if entity.valid {
-            match self.place(entity, numbers, mistakes) {
+            match self.place(entity, numbers, after_surface, mistakes) {
                 Ok(()) => return,
                 Err(Diagnostic { kind, span }) => mistakes.push(kind, span),
             }
@@ -73,11 +81,13 @@ impl Builder {
         &mut self,
         entity: &Entity<'_>,
         numbers: &[f64],
+        after_surface: Option<Option<f64>>,
         mistakes: &mut Sink,
     ) -> Result<(), Diagnostic> {
         let shape = match entity.keyword {
             Keyword::Light => return self.light(entity, numbers),
             Keyword::Surface => return self.surface(entity, numbers),
+            Keyword::Checker => return self.checker(entity, numbers, after_surface),
             Keyword::Sphere => sphere(entity, numbers)?,
             Keyword::Cone => cone(entity, numbers)?,
             Keyword::Cuboid => cuboid(entity, numbers)?,
@@ -145,7 +155,7 @@ impl Builder {
                     shine,
                     reflect,
                     refract,
-                    ior: 1.0,
+                    ..Surface::default()
                 };
                 self.header.pass_surface_of_thesis(entity.span);
                 (surface, rest.first().map(|&ior| (12, ior)))
@@ -161,6 +171,34 @@ impl Builder {
         }
         check::surface(&surface).map_err(|fault| entity.fault(0..4, fault))?;
         self.surfaces.push(surface);
+        self.checkered_by = Some((numbers.len() == 8).then(|| numbers[3]));
+        Ok(())
+    }
+
+    /// Adds other colours to the surface that was read just before.
+    fn checker(
+        &mut self,
+        entity: &Entity<'_>,
+        numbers: &[f64],
+        after_surface: Option<Option<f64>>,
+    ) -> Result<(), Diagnostic> {
+        let (Some(kd), Some(surface)) = (after_surface, self.surfaces.last_mut()) else {
+            return Err(entity.mistake(0..0, MistakeKind::LooseChecker));
+        };
+        let (size, ambient, diffuse) = match (kd, numbers) {
+            (Some(kd), &[size, r, g, b]) => (size, [0.0; 3], [kd * r, kd * g, kd * b]),
+            (None, &[size, ar, ag, ab, dr, dg, db]) => (size, [ar, ag, ab], [dr, dg, db]),
+            (Some(_), _) => return Err(entity.count(numbers, &[4])),
+            (None, _) => return Err(entity.count(numbers, &[7])),
+        };
+        entity.not_negative(1, &numbers[1..])?;
+        let checker = Checker {
+            size,
+            ambient,
+            diffuse,
+        };
+        check::checker(&checker).map_err(|fault| entity.fault(0..1, fault))?;
+        surface.checker = Some(checker);
         Ok(())
     }
 

@@ -20,7 +20,8 @@ pub(super) struct Header {
     projection: Option<Part<Projection>>,
     /// Width and height.
     resolution: Option<Part<[u32; 2]>>,
-    background: Option<Part<Colour>>,
+    /// The background, and the zenith if it is another.
+    background: Option<Part<(Colour, Option<Colour>)>>,
     /// Whether the parser is inside the `v` of NFF, where a resolution has its width first.
     inside_nff: bool,
     /// The first resolution outside the `v` of NFF, and the first surface of the thesis.
@@ -126,9 +127,13 @@ impl Header {
                 put(&mut self.resolution, sizes, entity, 0)
             }
             Keyword::Background => {
-                let colour = entity.exactly(numbers)?;
-                entity.not_negative(0, &colour)?;
-                put(&mut self.background, colour, entity, 0)
+                let colours = match *numbers {
+                    [r, g, b] => ([r, g, b], None),
+                    [r, g, b, zr, zg, zb] => ([r, g, b], Some([zr, zg, zb])),
+                    _ => return Err(entity.count(numbers, &[3, 6])),
+                };
+                entity.not_negative(0, numbers)?;
+                put(&mut self.background, colours, entity, 0)
             }
             _ => {
                 let projection = entity.projection(numbers)?;
@@ -152,11 +157,13 @@ impl Header {
             .resolution
             .map_or([width, height], |resolution| resolution.value);
         let background = self.background.map(|background| background.value);
+        let (background, zenith) = background.unwrap_or_default();
         Scene {
             camera,
             width,
             height,
-            background: background.unwrap_or_default(),
+            background,
+            zenith,
             ..Scene::default()
         }
     }

@@ -9,7 +9,8 @@ use super::vector::V3;
 #[derive(Debug)]
 pub(super) struct Scene {
     pub(super) view: View,
-    pub(super) background: V3,
+    /// The lowest and the highest colour of the sky, which may be equal.
+    pub(super) sky: [V3; 2],
     pub(super) lights: Vec<Light>,
     /// In file order.
     pub(super) objects: Vec<Object>,
@@ -52,6 +53,15 @@ pub(super) struct Surface {
     pub(super) reflect: f64,
     pub(super) refract: f64,
     pub(super) ior: f64,
+    pub(super) checker: Option<Checker>,
+}
+
+/// The second colours of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Checker {
+    pub(super) size: f64,
+    pub(super) ambient: V3,
+    pub(super) diffuse: V3,
 }
 
 /// Reads a valid scene file; panics on others.
@@ -65,9 +75,10 @@ pub(super) fn scene(source: &str) -> Scene {
     let mut angle = None;
     let mut parallel = false;
     let mut resolution = [512, 512];
-    let mut background = V3::ZERO;
+    let mut sky = [V3::ZERO; 2];
     let mut lights = Vec::new();
-    let mut surface = None;
+    let mut surface: Option<Surface> = None;
+    let mut kd = 0.0;
     let mut objects = Vec::new();
 
     let mut rest = &words[..];
@@ -102,12 +113,29 @@ pub(super) fn scene(source: &str) -> Scene {
                     _ => panic!("`view {kind}`"),
                 };
             }
-            ("b", 3) => background = V3::from_slice(&n),
+            ("b", 3) => sky = [V3::from_slice(&n); 2],
+            ("b", 6) => sky = [V3::from_slice(&n), V3::from_slice(&n[3..])],
             ("l", 3) => lights.push((V3::from_slice(&n), None)),
             ("l", 4) => lights.push((V3::from_slice(&n), Some(V3::new(n[3], n[3], n[3])))),
             ("l", 6) => lights.push((V3::from_slice(&n), Some(V3::from_slice(&n[3..])))),
-            ("f", 8) => surface = Some(nff_surface(&n)),
+            ("f", 8) => {
+                kd = n[3];
+                surface = Some(nff_surface(&n));
+            }
             ("f", 12 | 13) => surface = Some(thesis_surface(&n)),
+            ("checker", 4 | 7) => {
+                let checker = match n[..] {
+                    [size, r, g, b] => (size, V3::ZERO, V3::new(r, g, b) * kd),
+                    _ => (n[0], V3::from_slice(&n[1..]), V3::from_slice(&n[4..])),
+                };
+                let (size, ambient, diffuse) = checker;
+                let before = surface.as_mut().expect("a checker before the first `f`");
+                before.checker = Some(Checker {
+                    size,
+                    ambient,
+                    diffuse,
+                });
+            }
             ("s", 4) => add(Shape::Sphere {
                 centre: V3::from_slice(&n),
                 radius: n[3].abs(),
@@ -165,7 +193,7 @@ pub(super) fn scene(source: &str) -> Scene {
             width,
             height,
         },
-        background,
+        sky,
         lights: lights.into_iter().map(light).collect(),
         objects,
     }
@@ -181,6 +209,7 @@ fn nff_surface(n: &[f64]) -> Surface {
         reflect: n[4],
         refract: n[6],
         ior: n[7],
+        checker: None,
     }
 }
 
@@ -194,6 +223,7 @@ fn thesis_surface(n: &[f64]) -> Surface {
         reflect: n[10],
         refract: n[11],
         ior: n.get(12).copied().unwrap_or(1.0),
+        checker: None,
     }
 }
 

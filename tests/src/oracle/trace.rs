@@ -1,7 +1,7 @@
 //! Light along rays.
 
 use super::Counts;
-use super::read::Scene;
+use super::read::{Scene, Surface};
 use super::vector::{Ray, V3};
 
 /// The distance by which a ray starts off a surface, relative to the coordinates' size, and by which a shadow ray ends
@@ -50,7 +50,7 @@ impl Tracer<'_> {
     /// Returns the light along a ray of this weight after `depth` bounces.
     fn light_along(&self, ray: &Ray, weight: f64, depth: u32, counts: &mut Counts) -> V3 {
         let Some((index, t)) = self.nearest(ray) else {
-            return self.scene.background;
+            return self.sky(ray.direction.unit());
         };
         if depth == 0 {
             counts.eye_hits += 1;
@@ -80,7 +80,8 @@ impl Tracer<'_> {
         };
         let mirrored = incoming - normal * (2.0 * incoming.dot(normal));
 
-        let mut local = surface.ambient;
+        let (ambient, diffuse) = colours(surface, point);
+        let mut local = ambient;
         for light in &self.scene.lights {
             let to_light = (light.position - point).unit();
             let cosine = normal.dot(to_light);
@@ -89,7 +90,7 @@ impl Tracer<'_> {
                 local = local
                     + light
                         .colour
-                        .times(surface.diffuse * cosine + surface.specular * gloss);
+                        .times(diffuse * cosine + surface.specular * gloss);
             }
         }
 
@@ -131,6 +132,13 @@ impl Tracer<'_> {
         sum
     }
 
+    /// Returns the light along a ray of unit direction that hits nothing.
+    fn sky(&self, direction: V3) -> V3 {
+        let [low, high] = self.scene.sky;
+        let up = (self.scene.view.aim.as_ref()).map_or(V3::new(0.0, 1.0, 0.0), |aim| aim.up.unit());
+        low + (high - low) * ((1.0 + direction.dot(up)) / 2.0)
+    }
+
     /// Returns whether any surface lies between a point and a light.
     fn blocked(&self, meeting: &Meeting, light: V3, counts: &mut Counts) -> bool {
         counts.shadow += 1;
@@ -152,6 +160,20 @@ impl Meeting {
     fn leave(&self, direction: V3) -> Ray {
         let off = (self.size * APART).copysign(self.geometric.dot(direction));
         Ray::new(self.point + self.geometric * off, direction)
+    }
+}
+
+/// Returns ambient and diffuse colour of a surface at a point. A point that is in a plane between cubes of a checker to
+/// within rounding counts to the upper one.
+fn colours(surface: &Surface, point: V3) -> (V3, V3) {
+    let Some(checker) = &surface.checker else {
+        return (surface.ambient, surface.diffuse);
+    };
+    let cube = |x: f64| (x / checker.size + 1e-9).floor();
+    let sum = cube(point.x) + cube(point.y) + cube(point.z);
+    match sum.rem_euclid(2.0) == 1.0 {
+        true => (checker.ambient, checker.diffuse),
+        false => (surface.ambient, surface.diffuse),
     }
 }
 

@@ -20,7 +20,7 @@ fn both_forms_of_each_entity_are_distinguished_by_their_numbers() {
     );
     assert_eq!((scene.view.width, scene.view.height), (40, 20));
     assert!(scene.view.aim.is_none());
-    assert_eq!(scene.background, v(0.1, 0.2, 0.3));
+    assert_eq!(scene.sky, [v(0.1, 0.2, 0.3); 2]);
     let colours: Vec<V3> = scene.lights.iter().map(|light| light.colour).collect();
     assert_eq!(
         colours,
