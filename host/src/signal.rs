@@ -66,7 +66,10 @@ mod system {
     pub(super) fn on_first_signal(stop: impl FnOnce(u8) -> u8 + Send + 'static) -> io::Result<()> {
         // A file that grows beyond its limit is an error of writing, no end without a word.
         signal_hook::flag::register(SIGXFSZ, Arc::default())?;
-        let mut signals = Signals::new([SIGINT, SIGTERM, SIGHUP])?;
+        let mut signals = Signals::new([SIGINT, SIGTERM])?;
+        if !is_ignored(SIGHUP) {
+            signals.add_signal(SIGHUP)?;
+        }
         let wait = move || {
             if let Some(signal) = signals.forever().next() {
                 let code = stop(128 + signal as u8);
@@ -75,6 +78,14 @@ mod system {
             }
         };
         thread::Builder::new().spawn(wait).map(drop)
+    }
+
+    /// Whether whoever started the process wants it to ignore a signal, as `nohup` does; told on Linux only.
+    fn is_ignored(signal: i32) -> bool {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+        ignored.unwrap_or(0) >> (signal - 1) & 1 != 0
     }
 }
 

