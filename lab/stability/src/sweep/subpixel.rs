@@ -2,11 +2,10 @@
 
 use super::sphere::{stable, textbook};
 use crate::method::{About, Form, SEVEN_DECADES, SHIPPED, Sweep};
-use crate::number::{Number, counted, vector};
+use crate::number::{self, Number, counted, vector};
 use crate::random::{self, Random};
 use crate::setting::Setting;
 use crate::state::{ErrorStats, StateLimits, limit};
-use octray_core::ray::Ray;
 use octray_scenes::model::Shape;
 
 /// The sphere sweep including the rounding of scene and ray: rays of a camera pass a sphere of 1/2 to 10⁻⁷ of their

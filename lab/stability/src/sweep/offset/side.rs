@@ -2,7 +2,7 @@
 
 use crate::mock_accelerator;
 use crate::number::{self, Number, counted};
-use crate::random::{self, Random, add, cross, dot, times};
+use crate::random::{Random, add, cross, dot, times};
 use crate::setting::Setting;
 use crate::state::ErrorStats;
 use octray_core::accel::Hit;
@@ -216,7 +216,7 @@ fn meets<S: Number>(
             }
             let outward = times(outward, 1f64.copysign(-side));
             let along = times(random.across(outward), (1.0 - sine * sine).sqrt());
-            leaving.direction = number::direction::<S>(random::add(along, times(outward, sine)));
+            leaving.direction = number::direction::<S>(add(along, times(outward, sine)));
             prepared.scene.diameter
         }
     };
