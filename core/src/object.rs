@@ -64,6 +64,12 @@ impl ObjectRef {
         (self.0 & 0x0fff_ffff) as usize
     }
 
+    /// Whether both refer to the same object, marked or not.
+    #[inline(always)]
+    pub(crate) const fn is_same(self, other: Self) -> bool {
+        (self.0 ^ other.0) & !Self::LAST == 0
+    }
+
     /// Whether it is marked as the last of its list.
     #[inline(always)]
     pub const fn is_last(self) -> bool {

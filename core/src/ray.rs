@@ -36,8 +36,8 @@ impl Departure {
 
     /// Whether the ray leaves this object.
     #[inline(always)]
-    pub fn leaves(self, object: ObjectRef) -> bool {
-        self.0.marked_last(false) == object.marked_last(false)
+    pub const fn leaves(self, object: ObjectRef) -> bool {
+        self.0.is_same(object)
     }
 
     /// Whether the ray leaves against the object's outward normal.

@@ -35,7 +35,10 @@ impl<S: Scalar> Point<S> {
     #[inline(always)]
     pub(crate) fn ray<const FEATURES: FeatureSet>(&self, direction: Vec3<S>, back: bool) -> Ray<S> {
         let outward = self.leaves_outward::<FEATURES>(direction, back);
-        self.ray_from(self.start(outward), direction, outward)
+        Ray {
+            direction,
+            ..self.aimless_ray(outward)
+        }
     }
 
     /// Whether a ray leaves the surface on its outer side, back to where the incoming one came from or through the
@@ -49,22 +52,17 @@ impl<S: Scalar> Point<S> {
         }
     }
 
-    /// Where rays start: off the surface, on the side to which they leave. There no other surface in the same place
-    /// is in the way.
+    /// A ray that has no direction yet. It starts off the surface, on the side to which it leaves: there no other surface
+    /// in the same place is in the way.
     #[inline(always)]
-    fn start(&self, outward: bool) -> Vec3<S> {
-        if outward {
-            self.contact.point + self.offset
-        } else {
-            self.contact.point - self.offset
-        }
-    }
-
-    #[inline(always)]
-    fn ray_from(&self, origin: Vec3<S>, direction: Vec3<S>, outward: bool) -> Ray<S> {
+    fn aimless_ray(&self, outward: bool) -> Ray<S> {
         Ray {
-            origin,
-            direction,
+            origin: if outward {
+                self.contact.point + self.offset
+            } else {
+                self.contact.point - self.offset
+            },
+            direction: Vec3::ZERO,
             from: Departure::new(self.object, !outward),
         }
     }
@@ -105,12 +103,15 @@ pub(crate) fn direct_light<
     if !features::contains(FEATURES, features::SHADOWS) {
         return sum;
     }
+    // Shadow rays are aimed from where they start: beside the line to the light they would end beside the light,
+    // possibly behind a surface near it.
+    let mut ray = point.aimless_ray(!point.flipped);
     for (i, light) in scene.lights.iter().enumerate() {
-        // The ray is aimed from where it starts: beside the line to the light it would end beside the light, possibly
-        // behind a surface near it.
-        let outward = point.leaves_outward::<FEATURES>(light.position - point.contact.point, true);
-        let start = point.start(outward);
-        let to_light = light.position - start;
+        if features::contains(FEATURES, features::PATCHES) && point.smooth {
+            let to_light = light.position - point.contact.point;
+            ray = point.aimless_ray(point.leaves_outward::<FEATURES>(to_light, true));
+        }
+        let to_light = light.position - ray.origin;
         // Most lights behind a surface are found without a square root.
         if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
             continue;
@@ -121,7 +122,7 @@ pub(crate) fn direct_light<
             continue;
         }
         observer.ray(RayKind::Shadow);
-        let ray = point.ray_from(start, to_light, outward);
+        ray.direction = to_light;
         let last = shadow_cache.get(i).copied().flatten();
         let still = last.filter(|&object| {
             let blocks = scene

@@ -23,12 +23,30 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         limit: S,
         light: Option<&Light<S>>,
     ) -> Option<S> {
+        // In the nearer half even the light's own surface is met only by a ray in that surface, to within rounding.
+        if ray.from.leaves(object) || light.is_some() && t > limit - t {
+            self.confirm_at_end(object, ray, t, limit, light)
+        } else {
+            Some(t)
+        }
+    }
+
+    /// Not in the code of the walks: few hits come here.
+    #[cold]
+    #[inline(never)]
+    fn confirm_at_end(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        t: S,
+        limit: S,
+        light: Option<&Light<S>>,
+    ) -> Option<S> {
         let t = if ray.from.leaves(object) {
             self.hit_again(object, ray, limit)?
         } else {
             t
         };
-        // In the nearer half even the light's own surface is met only by a ray in that surface, to within rounding.
         match light {
             Some(light) if t > limit - t && self.holds(object, ray, limit - t, light) => None,
             _ => Some(t),
@@ -36,7 +54,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     }
 
     /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`.
-    #[inline(never)]
+    #[inline(always)]
     fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         if !ray.from.is_inward() {
             return None;
@@ -55,7 +73,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     ///
     /// The slack is more than the error of any computed hit across its surface. So a surface that is farther from the
     /// light is met on the right side of it, and one that is nearer cannot be told from one that holds it.
-    #[inline(never)]
+    #[inline(always)]
     fn holds(&self, object: ObjectRef, ray: &Ray<S>, short: S, light: &Light<S>) -> bool {
         let (i, place, slack) = (object.index(), light.position, self.slack);
         let held = match object.kind() {

@@ -101,7 +101,7 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
     let placement = Placement::of::<S>(&extent);
     // A ray has to start between the surfaces, and to tell them apart.
     let off = S::surface_error(S::from_f64(placement.length(diagonal / 4.0)), S::ZERO);
-    let least = 2.0 * off.to_f64() / placement.scale() + S::SLACK / 8.0 * diagonal;
+    let least = off.to_f64() / placement.scale() + S::SLACK / 8.0 * diagonal;
     if let Some(gap) = gaps::narrow_gap(scene, least, extent.rounding()) {
         check(gap.width / diagonal, least / diagonal, &|| {
             let [a, b] = gap.objects.map(|i| i + 1);
