@@ -48,11 +48,14 @@ pub const SKY: FeatureSet = 1 << 12;
 /// Surfaces with a checker.
 pub const CHECKERS: FeatureSet = 1 << 13;
 
+/// Lights beyond the scene, [`Light::parallax`](crate::scene::Light::parallax).
+pub const FAR_LIGHTS: FeatureSet = 1 << 14;
+
 /// Everything: for programs that do not know the scene beforehand.
-pub const ALL_FEATURES: FeatureSet = (1 << 14) - 1;
+pub const ALL_FEATURES: FeatureSet = (1 << 15) - 1;
 
 /// Names and values, to write a set as text.
-pub const NAMES: [(&str, FeatureSet); 14] = [
+pub const NAMES: [(&str, FeatureSet); 15] = [
     ("SPHERES", SPHERES),
     ("TRIANGLES", TRIANGLES),
     ("POLYGONS", POLYGONS),
@@ -67,6 +70,7 @@ pub const NAMES: [(&str, FeatureSet); 14] = [
     ("REFRACTION", REFRACTION),
     ("SKY", SKY),
     ("CHECKERS", CHECKERS),
+    ("FAR_LIGHTS", FAR_LIGHTS),
 ];
 
 /// The shapes of one kind.

@@ -136,16 +136,57 @@ pub struct Sky<S> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Light<S> {
-    /// Where it is.
+    /// Where it is; the unit vector from the origin to it if it is far away.
     pub position: Vec3<S>,
     /// Its intensity, linear; it does not fall off with distance.
     pub colour: Vec3<S>,
+    /// How the direction to a light changes with the place that is so far away that its own place is no number of
+    /// the scene: beyond everything that can block it.
+    pub parallax: Option<Parallax<S>>,
+}
+
+/// 1 over the distance to a light: `share` times 2^`exponent`. In formats whose precision is relative the exponent
+/// is 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Parallax<S> {
+    /// From 1 to 2 in fixed point.
+    pub share: S,
+    /// At most 0.
+    pub exponent: i8,
 }
 
 impl<S> Light<S> {
     /// A light of this intensity at a place.
     pub const fn new(position: Vec3<S>, colour: Vec3<S>) -> Self {
-        Self { position, colour }
+        Self {
+            position,
+            colour,
+            parallax: None,
+        }
+    }
+}
+
+impl<S: Scalar> Light<S> {
+    /// A vector from a place to the light; to a far one it is about as long as a unit vector.
+    #[inline(always)]
+    pub(crate) fn from<const FEATURES: FeatureSet>(&self, place: Vec3<S>) -> Vec3<S> {
+        match self.far::<FEATURES>() {
+            Some(Parallax { share, exponent }) => {
+                self.position - place.map(|x| x.to_local(exponent)) * share
+            }
+            None => self.position - place,
+        }
+    }
+
+    /// What is known of a far light.
+    #[inline(always)]
+    pub(crate) const fn far<const FEATURES: FeatureSet>(&self) -> Option<Parallax<S>> {
+        if features::contains(FEATURES, features::FAR_LIGHTS) {
+            self.parallax
+        } else {
+            None
+        }
     }
 }
 

@@ -108,10 +108,10 @@ pub(crate) fn direct_light<
     let mut ray = point.aimless_ray(!point.flipped);
     for (i, light) in scene.lights.iter().enumerate() {
         if features::contains(FEATURES, features::PATCHES) && point.smooth {
-            let to_light = light.position - point.contact.point;
+            let to_light = light.from::<FEATURES>(point.contact.point);
             ray = point.aimless_ray(point.leaves_outward::<FEATURES>(to_light, true));
         }
-        let to_light = light.position - ray.origin;
+        let to_light = light.from::<FEATURES>(ray.origin);
         // Most lights behind a surface are found without a square root.
         if point.normal.dot_wide(to_light) <= S::product(S::ZERO, S::ZERO) {
             continue;
@@ -121,18 +121,21 @@ pub(crate) fn direct_light<
         if facing <= S::ZERO {
             continue;
         }
+        // All that can block a far light is before it.
+        let (distance, end) = match light.far::<FEATURES>() {
+            Some(_) => (scene.diameter, None),
+            None => (distance, Some(light)),
+        };
         observer.ray(RayKind::Shadow);
         ray.direction = to_light;
         let last = shadow_cache.get(i).copied().flatten();
         let still = last.filter(|&object| {
-            let blocks = scene
-                .shapes
-                .blocks(object, &ray, distance, Some(light), observer);
+            let blocks = scene.shapes.blocks(object, &ray, distance, end, observer);
             observer.test(object.kind(), blocks);
             blocks
         });
-        let blocker = still
-            .or_else(|| accelerator.any_hit(scene, &ray, distance, Some(light), stack, observer));
+        let blocker =
+            still.or_else(|| accelerator.any_hit(scene, &ray, distance, end, stack, observer));
         if blocker.is_some() {
             observer.blocked();
             if let Some(place) = shadow_cache.get_mut(i) {

@@ -28,7 +28,7 @@ use crate::tree::{Growth, every_object};
 use octray_core::features::{self, FeatureSet};
 use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
-use octray_core::scene::Surface;
+use octray_core::scene::{Light, Surface};
 use octray_core::vec3::Vec3;
 use octray_scenes::model::Scene;
 use thiserror::Error;
@@ -183,6 +183,8 @@ fn features_of<S: Literal>(prepared: &Prepared<S>, max_depth: u32) -> FeatureSet
     need(features::BANDS, !scene.bands.is_empty());
     need(features::PATCHES, !scene.patches.is_empty());
     need(features::SHADOWS, !scene.lights.is_empty());
+    let is_far = |light: &Light<S>| light.parallax.is_some();
+    need(features::FAR_LIGHTS, scene.lights.iter().any(is_far));
     need(features::SKY, scene.sky.rise != Vec3::ZERO);
     for surface in used_surfaces(prepared) {
         need(features::CHECKERS, surface.checker != 0);

@@ -24,7 +24,7 @@ use octray_core::frame::Frame;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::quantize::Quantize;
 use octray_core::scalar::{Exponent, Scalar};
-use octray_core::scene::{Attributes, Light, Scene, Sky, Surface};
+use octray_core::scene::{Attributes, Light, Parallax, Scene, Sky, Surface};
 use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere, Triangle};
 use octray_core::vec3::Vec3;
 use octray_scenes::model;
@@ -149,13 +149,8 @@ pub fn quantise<S: Quantize>(
         slack: up(placement.length((placement.diagonal * S::SLACK).max(extent.rounding()))),
         diameter: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
         surfaces: scene.surfaces.iter().map(surface).collect(),
-        lights: scene
-            .lights
-            .iter()
-            .map(|light| Light {
-                position: vector(placement.point(light.position)),
-                colour: vector(light.colour),
-            })
+        lights: (scene.lights.iter())
+            .map(|of_scene| light(of_scene, extent.is_far(of_scene), &placement))
             .collect(),
         background: vector(scene.background),
         sky: checker::sky(scene),
@@ -274,6 +269,28 @@ fn surface<S: Quantize>(surface: &model::Surface) -> Surface<S> {
         entering: S::from_f64(1.0 / surface.ior),
         leaving: S::from_f64(surface.ior),
         checker: 0,
+    }
+}
+
+fn light<S: Quantize>(light: &model::Light, is_far: bool, place: &Placement) -> Light<S> {
+    let colour = vector(light.colour);
+    if !is_far {
+        return Light::new(vector(place.point(light.position)), colour);
+    }
+    let away = [0, 1, 2].map(|i| light.position[i] / 4.0 - place.centre[i] / 4.0);
+    let quarter = away[0].hypot(away[1]).hypot(away[2]);
+    let distance = place.length(quarter) * 4.0;
+    let exponent = match S::FRACTION_BITS {
+        Some(_) => -distance.log2().ceil().clamp(0.0, 31.0),
+        None => 0.0,
+    };
+    Light {
+        position: vector(away.map(|x| x / quarter)),
+        colour,
+        parallax: Some(Parallax {
+            share: S::from_f64(1.0 / (distance * exponent.exp2())),
+            exponent: exponent as i8,
+        }),
     }
 }
 

@@ -60,7 +60,7 @@ fn what_is_too_fine_is_named() {
     let far = scene("v 0 0 -8000", "s 0 0 0 1  s 0 0 0 9");
     assert_eq!(
         reported::<Fixed<16, PerThread>>(&far, (1, 1)).unwrap(),
-        "i16f16 resolves 1/4096, but the size of object 1 as a share of the scene is 1/8009"
+        "i16f16 resolves 1/4096, but the size of object 1 as a share of the scene, which the viewpoint makes large, is 1/8009"
     );
     assert_eq!(reported::<Fixed<20, PerThread>>(&far, (1, 1)), None);
     let near = scene("v 0 0 -9.01", "s 0 0 0 9");
@@ -87,6 +87,30 @@ fn what_is_too_fine_is_named() {
     assert_eq!(
         reported::<Fixed<8, PerThread>>(&beside, (400, 400)).unwrap(),
         "i24f8 resolves 1/16, but a pixel's share of the scene is 1/3118"
+    );
+}
+
+#[test]
+fn what_is_large_or_far_is_no_matter_where_rounding_is_relative() {
+    let view = "v 4 3 6 at 0 1 0 up 0 1 0 angle 40 resolution 64 64";
+    let surface = "f 1 1 1  1 1 1  0 0 0  1 0 0";
+    let floor = "p 4 -1e7 0 -1e7 1e7 0 -1e7 1e7 0 1e7 -1e7 0 1e7";
+    let scene = |text: &str| parse(&format!("{view} {surface} s 0 1 0 1 {text}")).unwrap();
+    let sun = scene("l 6e5 7e5 3e5 1");
+    for told in [
+        reported::<f32>(&sun, (64, 64)),
+        reported::<Fixed<16, PerThread>>(&sun, (64, 64)),
+        reported::<f32>(&scene(floor), (64, 64)),
+    ] {
+        assert_eq!(told, None);
+    }
+    assert_eq!(
+        reported::<Fixed<16, PerThread>>(&scene(floor), (64, 64)).unwrap(),
+        "i16f16 resolves 1/4096, but the size of object 1 as a share of the scene, which object 2 makes large, is 1/28284271"
+    );
+    assert_eq!(
+        reported::<f32>(&scene("s 1e7 0 0 1"), (64, 64)).unwrap(),
+        "f32 resolves 1/262144, but the size of object 1 as a share of its distance is 1/5000000"
     );
 }
 

@@ -143,7 +143,7 @@ impl<const N: u32> Tolerance for Approx<N> {
     }
 
     #[inline(always)]
-    fn hit_error(reach: Self, slack: Self) -> Self {
+    fn slack_near(reach: Self, slack: Self) -> Self {
         // Twice the error of an approximate reciprocal.
         let error = match N {
             0 => 1.0 / 4.0,

@@ -95,7 +95,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn hit_error(reach: Self, slack: Self) -> Self {
+            fn slack_near(reach: Self, slack: Self) -> Self {
                 Scalar::min(reach * (16.0 * $t::EPSILON), slack)
             }
 

@@ -30,7 +30,17 @@ pub trait Tolerance: Scalar {
     /// A bound on how far the computed point at which a ray meets a plane, not at a grazing angle, can lie from the true
     /// one. `reach` is the largest coordinate of the ray's origin and of the point; `slack`, the scene's, is never
     /// exceeded.
-    fn hit_error(reach: Self, slack: Self) -> Self;
+    #[inline(always)]
+    fn hit_error(reach: Self, slack: Self) -> Self {
+        Self::slack_near(reach, slack)
+    }
+
+    /// The scene's slack; less of it near the origin where rounding is relative. `reach` is the largest coordinate that
+    /// takes part.
+    #[inline(always)]
+    fn slack_near(_reach: Self, slack: Self) -> Self {
+        slack
+    }
 
     /// Rounds a distance ≥ 0 up by the maximum rounding error, where rounding is relative (Ize,
     /// "Robust BVH Ray Traversal", JCGT 2013): which of two planes is met first does not hang on a

@@ -75,7 +75,8 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     /// light is met on the right side of it, and one that is nearer cannot be told from one that holds it.
     #[inline(always)]
     fn holds(&self, object: ObjectRef, ray: &Ray<S>, short: S, light: &Light<S>) -> bool {
-        let (i, place, slack) = (object.index(), light.position, self.slack);
+        let (i, place) = (object.index(), light.position);
+        let slack = S::slack_near(place.size().max(ray.origin.size()), self.slack);
         let held = match object.kind() {
             ObjectKind::Sphere => self.sphere(i).map(|s| s.ends(ray, place, short, slack)),
             ObjectKind::Triangle => self.triangle(i).map(|p| p.plane.holds(place, slack)),

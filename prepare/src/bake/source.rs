@@ -10,7 +10,7 @@ use octray_core::features::{self, FeatureSet};
 use octray_core::frame::FrameParams;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Aabb;
-use octray_core::scene::{Attributes, Light, Surface};
+use octray_core::scene::{Attributes, Light, Parallax, Surface};
 use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
 use std::fmt::{self, Display, Formatter};
@@ -396,7 +396,14 @@ fn checker<S: Literal>(checker: &Checker<S>) -> String {
 
 fn light<S: Literal>(light: &Light<S>) -> String {
     let (position, colour) = (vector(&light.position), vector(&light.colour));
-    format!("scene::Light {{ position: {position}, colour: {colour} }}")
+    let parallax = match &light.parallax {
+        None => "None".into(),
+        Some(Parallax { share, exponent }) => {
+            let share = number(*share);
+            format!("Some(scene::Parallax {{ share: {share}, exponent: {exponent} }})")
+        }
+    };
+    format!("scene::Light {{ position: {position}, colour: {colour}, parallax: {parallax} }}")
 }
 
 fn link(link: &ObjectRef) -> String {

@@ -1,10 +1,10 @@
 //! The extent of a scene.
 
 use super::camera::Rays;
-use octray_scenes::model::{Point, Scene, Shape};
+use octray_scenes::model::{Light, Point, Scene, Shape};
 
-/// The box around all objects, and the box around everything that takes part in the arithmetic: objects, lights and the
-/// places where rays start. In scene units.
+/// The box around all objects, and the box around everything that takes part in the arithmetic: objects, the places where
+/// rays start, and lights that are not far away. In scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Low and high corner of the objects' box; inverted if there are none.
@@ -24,16 +24,43 @@ impl Extent {
             include(&mut objects, high);
         }
         let mut everything = objects;
-        for light in &scene.lights {
-            include(&mut everything, light.position);
-        }
         for start in rays.starts() {
             include(&mut everything, start);
+        }
+        let seen = Self {
+            objects,
+            everything,
+        };
+        let (middle, reach) = (seen.middle(true), FAR * seen.diagonal());
+        for light in &scene.lights {
+            let [x, y, z] = [0, 1, 2].map(|i| light.position[i] - middle[i]);
+            if reach == 0.0 || x.hypot(y).hypot(z) <= reach {
+                include(&mut everything, light.position);
+            }
         }
         Self {
             objects,
             everything,
         }
+    }
+
+    /// Returns the extent of boxes of objects.
+    pub(super) fn around(boxes: impl Iterator<Item = [Point; 2]>) -> Self {
+        let mut all = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for [low, high] in boxes {
+            include(&mut all, low);
+            include(&mut all, high);
+        }
+        Self {
+            objects: all,
+            everything: all,
+        }
+    }
+
+    /// Whether a light is so far away that its place takes no part in the arithmetic.
+    pub(super) fn is_far(&self, light: &Light) -> bool {
+        let [low, high] = self.everything;
+        (0..3).any(|i| !(low[i]..=high[i]).contains(&light.position[i]))
     }
 
     /// Returns the largest distance between two points.
@@ -60,6 +87,9 @@ impl Extent {
         [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0)
     }
 }
+
+/// A light is far away at this many diagonals of what is seen: nearer, its place takes three bits at most.
+const FAR: f64 = 8.0;
 
 fn include(bounds: &mut [Point; 2], p: Point) {
     for (i, x) in p.into_iter().enumerate() {

@@ -2,6 +2,7 @@
 //! resolve; then methods break (`octray stability` shows where).
 
 mod gaps;
+mod large;
 
 use super::Placement;
 use super::camera::length;
@@ -87,10 +88,36 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
     let tips = !S::EXACT_ROOTS && scene.objects.iter().any(|object| has_tip(&object.shape));
     let least = if tips { TIP * grain } else { grain };
     check(pixel, least, &|| format!("a pixel's share of {whole}"))?;
+    let placement = Placement::of::<S>(&extent);
+    let from_middle = |p: Point| length(add(p, times(placement.centre, -1.0)));
+    let eye = rays
+        .starts()
+        .into_iter()
+        .map(from_middle)
+        .fold(0.0, f64::max);
     for (i, object) in scene.objects.iter().enumerate() {
         let name = |what: &str| format!("{what} object {} as a share of the scene", i + 1);
-        check(size(scene, &object.shape) / diagonal, grain, &|| {
-            name("the size of")
+        // Where rounding is relative, what is far away does not matter.
+        let reach = match S::FRACTION_BITS {
+            Some(_) => diagonal,
+            None => {
+                let [low, high] = shape_box(scene, &object.shape);
+                let farthest = [0, 1, 2].map(|i| {
+                    let centre = placement.centre[i];
+                    (low[i] - centre).abs().max((high[i] - centre).abs())
+                });
+                length(farthest).max(eye).min(diagonal)
+            }
+        };
+        check(size(scene, &object.shape) / reach, grain, &|| {
+            if reach < diagonal {
+                let i = i + 1;
+                return format!("the size of object {i} as a share of its distance");
+            }
+            match large::culprit(scene, &rays, &extent, i) {
+                Some(large) => name("the size of") + &format!(", which {large} makes large,"),
+                None => name("the size of"),
+            }
         })?;
         for eye in rays.starts() {
             if let Some(away) = distance(&object.shape, eye) {
@@ -98,7 +125,6 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
             }
         }
     }
-    let placement = Placement::of::<S>(&extent);
     // A ray has to start between the surfaces, and to tell them apart.
     let off = S::surface_error(S::from_f64(placement.length(diagonal / 4.0)), S::ZERO);
     let least = off.to_f64() / placement.scale() + S::SLACK / 8.0 * diagonal;
