@@ -58,7 +58,7 @@ fn compare(name: &str, text: &str, least: &[(Arith, f64)]) -> Vec<String> {
     for &(arith, least) in least {
         let psnr = Difference::between(&exact, &picture(text, arith))
             .unwrap()
-            .psnr;
+            .psnr();
         if psnr < least {
             wrong.push(format!("{name}: {} has {psnr:.1} dB", arith.name()));
         }
