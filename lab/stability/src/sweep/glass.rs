@@ -138,7 +138,13 @@ fn truth(incoming: Exact3, normal: Exact3, ratio: &Exact) -> Option<Exact3> {
 
 fn shipped<S: Number>(incoming: Vec3<S>, normal: Vec3<S>, ratio: S) -> Option<Vec3<S>> {
     let seen = leaving(incoming, normal, mock_accelerator::glass(ratio));
-    seen.follow.first().map(|ray| ray.direction)
+    // At total reflection the only ray that follows is a mirrored one, on the side that the incoming one is on.
+    let from_behind = normal.dot(incoming) > S::ZERO;
+    let mut through = seen
+        .follow
+        .iter()
+        .filter(|ray| ray.from.is_inward() != from_behind);
+    through.next().map(|ray| ray.direction)
 }
 
 fn thesis<S: Number>(incoming: Vec3<S>, normal: Vec3<S>, ratio: S) -> Option<Vec3<S>> {

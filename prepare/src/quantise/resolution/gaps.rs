@@ -77,13 +77,16 @@ fn planes(scene: &Scene, gap: &std::ops::Range<f64>) -> Option<Gap> {
         faces.sort_by(|a, b| a.offset.total_cmp(&b.offset));
         let apart = |a: &Face, b: &Face| {
             let width = b.offset - a.offset;
-            let over = (0..3).all(|i| {
+            let over = [0, 1, 2].map(|i| {
                 let (low, high) = (
                     a.bounds[0][i].max(b.bounds[0][i]),
                     a.bounds[1][i].min(b.bounds[1][i]),
                 );
-                low - high < width.max(gap.start)
+                high - low
             });
+            // One behind the other, not edge to edge.
+            let over = over.iter().all(|o| *o >= -2.0 * width)
+                && over.iter().filter(|o| **o > 2.0 * width).count() >= 2;
             (over && a.object != b.object).then_some(width)
         };
         first_gap(
