@@ -85,6 +85,18 @@ impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
         Ok(Self { words, links, tick })
     }
 
+    /// What a walk sees of the tree if it goes no further than the root: to tell what a root costs from what the rest does.
+    #[must_use]
+    pub fn root_alone(&self) -> Self {
+        // The upper bits of a node's second word hold the number of its children. A place beyond the words is left out.
+        let children = self.words.get(1).map_or(0, |word| (word >> 28) as usize);
+        let size = HEADER + children * CHILD;
+        Self {
+            words: self.words.get(..size).unwrap_or(self.words),
+            ..*self
+        }
+    }
+
     /// The nodes, the root first.
     pub const fn words(&self) -> &'a [u32] {
         self.words
