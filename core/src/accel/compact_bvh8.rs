@@ -27,6 +27,7 @@ mod walk;
 pub use room::{COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactStack, StackTooSmall};
 
 use crate::object::ObjectRef;
+use node::{CHILD, HEADER};
 
 /// A finished compact tree, walked with a stack of `ROOM` entries, which is never too small: no tree
 /// that needs more can be made.
