@@ -72,16 +72,34 @@ impl LentBytes {
     }
 }
 
-/// The parts of the code: a constant one, one per feature, and the tree's traversal.
-pub const OF_CODE: usize = 2 + features::NAMES.len();
+/// The features that the model's record has scenes with. What others add to code and frames is left out of a prediction,
+/// which [`unpredicted`] names.
+const RECORDED: usize = 12;
+
+/// The parts of the code: a constant one, the tree's traversal, and one per recorded feature.
+pub const OF_CODE: usize = 2 + RECORDED;
+
+/// Returns the recorded features, with their names.
+pub fn recorded() -> &'static [(&'static str, FeatureSet)] {
+    &features::NAMES[..RECORDED]
+}
+
+/// Returns the names of features in a set whose code no prediction counts.
+pub fn unpredicted(set: FeatureSet) -> Vec<String> {
+    let others = &features::NAMES[RECORDED..];
+    let used = others
+        .iter()
+        .filter(|(_, what)| features::contains(set, *what));
+    used.map(|(name, _)| name.to_lowercase()).collect()
+}
 
 /// Returns the parts that a scene needs.
 pub fn code(set: FeatureSet, tree: Option<BuildOptions>) -> [f64; OF_CODE] {
     let mut parts = [0.0; OF_CODE];
     parts[0] = 1.0;
     parts[1] = if tree.is_none() { 0.0 } else { 1.0 };
-    for (part, (_, what)) in parts[2..].iter_mut().zip(features::NAMES) {
-        *part = if features::contains(set, what) {
+    for (part, (_, what)) in parts[2..].iter_mut().zip(recorded()) {
+        *part = if features::contains(set, *what) {
             1.0
         } else {
             0.0
@@ -182,7 +200,7 @@ impl Weights {
         let parts = || {
             ["all", "tree"]
                 .into_iter()
-                .chain(features::NAMES.map(|(name, _)| name))
+                .chain(recorded().iter().map(|(name, _)| *name))
         };
         let code = parts().map(|part| format!("code of {part}"));
         let frames = parts().map(|part| format!("frames of {part}"));

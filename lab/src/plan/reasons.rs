@@ -4,6 +4,7 @@ use super::accuracy::Accuracy;
 use super::choice::{Candidate, cheapest};
 use super::decision::{Cheaper, Decision, decibels};
 use super::events::{Events, ROWS};
+use super::model::{recorded, unpredicted};
 use octray_core::features;
 use octray_prepare::PixelsPerRay;
 use octray_prepare::TreeKind;
@@ -175,10 +176,12 @@ pub(super) fn capacities(chosen: &Candidate) -> Decision {
 pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
     let has = |what| features::contains(chosen.baked.features, what);
     let names = |wanted: bool| {
-        let names = features::NAMES
-            .iter()
-            .filter(|(_, what)| has(*what) == wanted);
-        let names: Vec<_> = names.map(|(name, _)| name.to_lowercase()).collect();
+        let names = recorded().iter().filter(|(_, what)| has(*what) == wanted);
+        let mut names: Vec<_> = names.map(|(name, _)| name.to_lowercase()).collect();
+        if wanted {
+            let others = unpredicted(chosen.baked.features).into_iter();
+            names.extend(others.map(|name| format!("{name} (its code is not in the prediction)")));
+        }
         if names.is_empty() {
             "nothing".into()
         } else {
@@ -186,7 +189,7 @@ pub(super) fn code(chosen: &Candidate, weights: &[f64]) -> Decision {
         }
     };
     // The first two are the constant part and the tree's.
-    let absent = features::NAMES
+    let absent = recorded()
         .iter()
         .zip(&weights[2..])
         .filter(|((_, what), _)| !has(*what));
