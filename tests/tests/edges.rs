@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// A view from above in which the middles of 33 x 33 pixels are at whole numbers.
 const ABOVE: &str =
-    "b 1 0 1\nv 0 0 100\nview parallel\nresolution 33 33\nf 0.5 0.5 0.5 0 0 0 0 0 0 1 0 0\n";
+    "b 1 0 1\nv 0 0 40\nview parallel\nresolution 33 33\nf 0.5 0.5 0.5 0 0 0 0 0 0 1 0 0\n";
 
 /// How many rays of the eye hit something.
 fn hits(arith: Arith, text: &str) -> u64 {

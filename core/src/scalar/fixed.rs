@@ -288,7 +288,7 @@ impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
     #[inline(always)]
     fn hit_error(reach: Self, slack: Self) -> Self {
         // Normals and directions have F bits, and are multiplied by coordinates; a step for each of four roundings.
-        Scalar::min(Self::from_bits((reach.0 >> (F - 1)).wrapping_add(8)), slack)
+        Scalar::min(Self::from_bits(3 * (reach.0 >> F) + 8), slack)
     }
 }
 

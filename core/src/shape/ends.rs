@@ -54,7 +54,8 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     }
 
     /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         if !ray.from.is_inward() {
             return None;
@@ -73,7 +74,8 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     ///
     /// The slack is more than the error of any computed hit across its surface. So a surface that is farther from the
     /// light is met on the right side of it, and one that is nearer cannot be told from one that holds it.
-    #[inline(always)]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
     fn holds(&self, object: ObjectRef, ray: &Ray<S>, short: S, light: &Light<S>) -> bool {
         let (i, place) = (object.index(), light.position);
         let slack = S::slack_near(place.size().max(ray.origin.size()), self.slack);

@@ -121,7 +121,7 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
         })?;
         for eye in rays.starts() {
             if let Some(away) = distance(&object.shape, eye) {
-                check(away / diagonal, grain, &|| name("the eye's distance from"))?;
+                check(away / reach, grain, &|| name("the eye's distance from"))?;
             }
         }
     }

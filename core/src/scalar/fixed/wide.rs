@@ -192,7 +192,7 @@ impl<C: SaturationCounter> Tolerance for Fixed64<C> {
 
     #[inline(always)]
     fn hit_error(reach: Self, slack: Self) -> Self {
-        Scalar::min(Self::from_bits((reach.0 >> (F - 1)).wrapping_add(8)), slack)
+        Scalar::min(Self::from_bits(3 * (reach.0 >> F) + 8), slack)
     }
 }
 

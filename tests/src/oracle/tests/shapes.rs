@@ -264,7 +264,7 @@ fn polygon_follows_the_even_odd_rule() {
 }
 
 #[test]
-fn a_shared_edge_or_vertex_belongs_to_one_polygon() {
+fn a_shared_edge_or_vertex_belongs_to_every_polygon() {
     let triangle = |a, b| Polygon::new(vec![V3::ZERO, a, b], None);
     let (n, e, s, w) = (v(0., 1., 0.), v(1., 0., 0.), v(0., -1., 0.), v(-1., 0., 0.));
     let fan = [
@@ -273,23 +273,26 @@ fn a_shared_edge_or_vertex_belongs_to_one_polygon() {
         triangle(w, s),
         triangle(s, e),
     ];
-    for (x, y) in [
-        (0.0, 0.0),
-        (0.5, 0.0),
-        (-0.5, 0.0),
-        (0.0, 0.5),
-        (0.0, -0.5),
-        (0.25, 0.25),
+    for (x, y, owners) in [
+        (0.0, 0.0, 4),
+        (0.5, 0.0, 2),
+        (-0.5, 0.0, 2),
+        (0.0, 0.5, 2),
+        (0.0, -0.5, 2),
+        (0.25, 0.25, 1),
+        (0.5, 0.5, 1),
+        (0.75, 0.5, 0),
     ] {
         let hits = fan
             .iter()
             .filter(|polygon| polygon.hit(&down(x, y)).is_some())
             .count();
-        assert_eq!(hits, 1, "at {x} {y}");
+        assert_eq!(hits, owners, "at {x} {y}");
     }
     let low_left = Polygon::new(vec![V3::ZERO, e, v(1., 1., 0.), n], None);
     assert!(low_left.hit(&down(0.0, 0.0)).is_some());
-    assert!(low_left.hit(&down(0.5, 1.0)).is_none() && low_left.hit(&down(1.0, 0.5)).is_none());
+    assert!(low_left.hit(&down(0.5, 1.0)).is_some() && low_left.hit(&down(1.0, 0.5)).is_some());
+    assert!(low_left.hit(&down(0.5, 1.001)).is_none());
 }
 
 #[test]
