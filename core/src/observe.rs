@@ -74,6 +74,12 @@ pub trait Observer {
     /// same, only slower.
     #[inline(always)]
     fn uncached_light(&mut self) {}
+    /// Whether to trace no more: asked before each ray that is no shadow ray. The pixel then lacks
+    /// the light of the rays that were not traced.
+    #[inline(always)]
+    fn stopped(&mut self) -> bool {
+        false
+    }
 }
 
 impl Observer for () {}

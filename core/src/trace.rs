@@ -113,6 +113,9 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
             return sum;
         }
         loop {
+            if observer.stopped() {
+                return sum;
+            }
             observer.ray(next.kind);
             let light = match self.nearest(&next.ray, workspace, observer) {
                 None => self.scene.background,

@@ -6,7 +6,7 @@ use octray_core::accel::{
 };
 use octray_core::features::{ALL_FEATURES, REFLECTION, REFRACTION, SHADOWS};
 use octray_core::object::ObjectRef;
-use octray_core::observe::Counters;
+use octray_core::observe::{Counters, Observer};
 use octray_core::trace::{QueuedRay, Tracer, Workspace, required_rays};
 use octray_core::vec3::Vec3;
 use octray_prepare::RenderSettings;
@@ -168,6 +168,63 @@ fn a_tree_without_a_floor_is_refused() {
     // A root at word 0 with one child, whose place is 0 and not marked as a leaf.
     let words = [0, 1 << 28, 0, 0];
     assert!(CompactBvh8::<'_, COMPACT_STACK_SIZE>::new(&words, &[], 1).is_err());
+}
+
+/// Counts the steps of a walk, and gives up on one without end.
+struct Steps(u32);
+
+impl Observer for Steps {
+    fn step(&mut self, _: usize) {
+        self.0 += 1;
+        assert!(self.0 < 100_000, "a walk without end");
+    }
+}
+
+/// Tables in which bits have been lost: refused, or walked to an end.
+#[test]
+fn a_damaged_tree_is_refused_or_its_walk_ends() {
+    let (prepared, tree) = grown(60);
+    let scene = prepared.scene.scene();
+    let whole = tree.tree();
+    let rays = [-0.4_f32, 0.0, 0.3].map(|y| prepared.frame.camera().row(y).ray(0.1));
+    // Numbers as good as random.
+    let mut seed = 1u32;
+    let mut random = |below: usize| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as usize % below
+    };
+    let mut refused = 0;
+    for _ in 0..5000 {
+        let (mut words, mut links) = (whole.words().to_vec(), whole.links().to_vec());
+        for _ in 0..=random(3) {
+            match random(4) {
+                0 => links.truncate(random(links.len() + 1)),
+                1 => words.truncate(random(words.len() + 1)),
+                2 => {
+                    let at = random(words.len().max(1));
+                    if let Some(word) = words.get_mut(at) {
+                        // Most of them the place of a child.
+                        *word ^= 1 << [random(32), 24 + random(8)][random(2)];
+                    }
+                }
+                _ => {
+                    let at = random(links.len().max(1));
+                    if let Some(link) = links.get_mut(at) {
+                        *link = link.marked_last(!link.is_last());
+                    }
+                }
+            }
+        }
+        let Ok(damaged) = CompactBvh8::<'_, 64>::new(&words, &links, whole.tick()) else {
+            refused += 1;
+            continue;
+        };
+        for ray in &rays {
+            let mut steps = Steps(0);
+            damaged.nearest(&scene, ray, &mut Default::default(), &mut steps);
+        }
+    }
+    assert!((500..5000).contains(&refused), "{refused}");
 }
 
 #[test]

@@ -81,7 +81,9 @@ fn strip_calls(folder: &Path) -> usize {
             count += strip_calls(&path);
             continue;
         }
+        // The one call that is a question.
         let source = fs::read_to_string(&path).unwrap();
+        let source = source.replace("if observer.stopped() {", "if false {");
         let is_call = |line: &&str| {
             let line = line.trim();
             ["observer.", "self.observer.", "query.observer."]

@@ -8,10 +8,15 @@ use octray_prepare::{FirmwareTree, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 #[cfg(feature = "lab")]
-use std::fs;
+use octray_scenes::{input, name::Shown};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+/// The most bytes of a plan.
+#[cfg(feature = "lab")]
+const MOST_PLAN: u64 = 1 << 16;
 
 /// What to bake, and where to write it.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +45,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
     let read = |path| read_plan(path).map(|plan| (path, plan));
     let plan = job.plan.as_deref().map(read).transpose()?;
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     interrupt.check()?;
     let name = job
         .scene
@@ -79,9 +84,9 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// Reads a plan that `octray plan --emit` wrote.
 #[cfg(feature = "lab")]
 fn read_plan(path: &Path) -> Result<Plan, Error> {
-    let text = fs::read_to_string(path).map_err(|cause| Error::read(path, cause))?;
+    let text = input::read_text(path, MOST_PLAN).map_err(|cause| Error::read(path, cause))?;
     text.parse()
-        .map_err(|why| Error::Failed(format!("{}: {why}", path.display())))
+        .map_err(|why| Error::Failed(format!("{}: {why}", Shown(path))))
 }
 
 /// Reports how to build a command that reads plans.

@@ -4,6 +4,8 @@ use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
+use octray_scenes::name::Shown;
 use std::path::PathBuf;
 
 /// Reads each scene and prints one line per scene with its contents.
@@ -14,9 +16,9 @@ pub fn run(scenes: &[PathBuf], interrupt: &Interrupt) -> Result<(), Error> {
     let mut refused = Vec::new();
     for path in scenes {
         interrupt.check()?;
-        match octray_scenes::read(path).map_err(Error::from) {
+        match scene_file::read(path) {
             Ok(scene) => output::write_stdout(interrupt, |out| {
-                let (name, facts) = (path.display(), SceneCounts::of(&scene));
+                let (name, facts) = (Shown(path), SceneCounts::of(&scene));
                 writeln!(
                     out,
                     "{name}: {facts}, {} x {} pixels",

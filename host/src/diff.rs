@@ -65,7 +65,8 @@ pub fn run(job: &DiffJob, interrupt: &Interrupt) -> Result<(), Error> {
         target.write(&heat::map(&a, &b)?, job.ras_depth, interrupt)?;
     }
     let exceeded = job.limits.exceeded(&difference);
-    output::write_stdout(interrupt, |out| {
+    let heat = job.heat.iter().map(|target| &target.path);
+    output::write_report(heat, interrupt, |out| {
         if job.json {
             let report = DiffReport::new(job, a.size(), &difference, exceeded.is_empty());
             serde_json::to_writer(&mut *out, &report)?;

@@ -14,6 +14,7 @@ pub mod job;
 #[cfg(feature = "mpi")]
 pub mod ranks;
 pub mod render;
+pub mod signal;
 pub mod stats;
 pub mod summary;
 
@@ -21,15 +22,14 @@ use clap::Parser;
 use cli::{Cli, Command};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
+use octray_scenes::name;
+use signal::Signals;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// The exit code of an interrupted process, as in shells after Ctrl-C.
-pub const INTERRUPTED: u8 = 130;
-
-/// Runs a command line of `octray`. Messages go to standard error. The exit code is 0 for success, 1 for failure, 2 for
-/// bad usage and 130 for an interrupt.
+/// Runs a command line of `octray`. Messages go to standard error. The exit code is 0 for success, 1 for failure and 2
+/// for bad usage; after a signal it is 128 and the signal's number: 130 for Ctrl-C, 143 for SIGTERM.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Cli::try_parse_from(arguments) {
         Ok(arguments) => arguments,
@@ -42,28 +42,23 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             };
         }
     };
-    match on_signal().and_then(|interrupt| run(arguments.command, &interrupt)) {
+    let signals = match Signals::watch() {
+        Ok(signals) => signals,
+        Err(cause) => {
+            report_error(&Error::Failed(format!("cannot watch for Ctrl-C: {cause}")));
+            return ExitCode::FAILURE;
+        }
+    };
+    match run(arguments.command, &signals.interrupt) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             report_error(&error);
-            exit_code(&error)
+            match error {
+                Error::Interrupted => signals.exit_code(),
+                _ => exit_code(&error),
+            }
         }
     }
-}
-
-/// Returns a flag that Ctrl-C, a termination signal or a hang-up of the terminal sets. A second signal ends the process
-/// at once, in case it is stuck in code that does not poll the flag.
-fn on_signal() -> Result<Interrupt, Error> {
-    let interrupt = Interrupt::new();
-    let flag = interrupt.clone();
-    ctrlc::set_handler(move || {
-        if flag.requested() {
-            std::process::exit(INTERRUPTED.into());
-        }
-        flag.request();
-    })
-    .map_err(|cause| Error::Failed(format!("cannot watch for Ctrl-C: {cause}")))?;
-    Ok(interrupt)
 }
 
 fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
@@ -84,14 +79,26 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
     }
 }
 
-/// Returns 2 for bad usage, 130 for an interrupt, 0 for a closed pipe at standard output, 1 otherwise.
+/// Returns 2 for bad usage, 0 for a closed pipe at standard output, 1 otherwise.
 fn exit_code(error: &Error) -> ExitCode {
     ExitCode::from(match error {
         Error::Usage(_) => 2,
-        Error::Interrupted => INTERRUPTED,
         Error::BrokenPipe => 0,
         _ => 1,
     })
+}
+
+/// A message as a terminal may show it: whatever a file contains of which it tells, no line commands the terminal, and none
+/// is endless.
+fn readable(message: &str) -> String {
+    const LONGEST: usize = 400;
+    let shortened = message
+        .split('\n')
+        .map(|line| match line.char_indices().nth(LONGEST) {
+            Some((end, _)) => name::line(&line[..end]) + "...",
+            None => name::line(line),
+        });
+    shortened.collect::<Vec<_>>().join("\n")
 }
 
 /// Writes a failure to standard error, in the form in which bad arguments are reported.
@@ -109,6 +116,6 @@ fn report_error(error: &Error) {
             stderr,
             "error: {error}\n\nFor more information, try '--help'."
         ),
-        _ => writeln!(stderr, "error: {error}"),
+        _ => writeln!(stderr, "error: {}", readable(&error.to_string())),
     };
 }

@@ -151,7 +151,7 @@ pub fn render(job: &RenderJob, interrupt: &Interrupt) -> Result<(), Error> {
         rank => match serve::serve(&mut universe, interrupt) {
             Ok(()) => Ok(()),
             // The first rank reports it.
-            Err(Error::Interrupted) => std::process::exit(crate::INTERRUPTED.into()),
+            Err(Error::Interrupted) => std::process::exit(crate::signal::INTERRUPTED.into()),
             Err(error) => {
                 let failure = Err(failed(format!("rank {rank}: {error}")));
                 return exit_without_others(universe, failure);

@@ -10,6 +10,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use octray_render::render::{self, Rendering};
+use octray_render::scene_file;
 use octray_render::stats::Rays;
 use octray_scenes::model::Scene;
 use std::time::{Duration, Instant};
@@ -47,17 +48,20 @@ pub fn run(
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let parse = begin.elapsed();
     interrupt.check()?;
     let progress = Bar::new("tracing");
     let traced = trace(&scene, job, &progress, interrupt)?;
     drop(progress);
     interrupt.check()?;
+    if !scene.objects.is_empty() && traced.counters.hits[RayKind::Primary as usize] == 0 {
+        scene_file::note(scene_file::NOTHING_IN_SIGHT);
+    }
     job.output
         .write(&traced.picture, job.ras_depth, interrupt)?;
     let stats = stats(job, &scene, &traced, parse);
-    output::write_stdout(interrupt, |out| match job.stats {
+    output::write_report([&job.output.path], interrupt, |out| match job.stats {
         StatsFormat::None => Ok(()),
         StatsFormat::Text => write!(out, "{}", Summary(&stats)),
         StatsFormat::Json => {

@@ -3,6 +3,7 @@
 use crate::stats::Stats;
 use octray_render::counts::thousands;
 use octray_render::stats::Messages;
+use octray_scenes::name;
 use std::fmt;
 
 /// Displays [`Stats`] as aligned lines, each with a line end.
@@ -12,11 +13,13 @@ impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let stats = self.0;
         let (rays, seconds) = (&stats.rays, &stats.seconds);
-        line(f, "scene", &format!("{}: {}", stats.scene, stats.facts))?;
+        let scene = name::line(&stats.scene);
+        line(f, "scene", &format!("{scene}: {}", stats.facts))?;
         let (width, height) = stats.size;
         let picture = format!(
             "{}: {width} x {height} pixels, hash {:016x}",
-            stats.picture, stats.hash
+            name::line(&stats.picture),
+            stats.hash
         );
         line(f, "picture", &picture)?;
         line(f, "arithmetic", &arithmetic(stats))?;
@@ -127,7 +130,7 @@ fn per_ray(number: u64, rays: u64) -> String {
 
 fn work(stats: &Stats) -> String {
     let speed = match stats.seconds.render {
-        seconds if seconds > 0.0 => {
+        seconds if seconds > 0.0 && stats.rays.total() > 0 => {
             let speed = stats.rays.total() as f64 / seconds;
             format!("{} rays/s, ", thousands(speed.round() as u64))
         }

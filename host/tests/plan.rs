@@ -297,3 +297,53 @@ fn what_no_format_achieves_is_reported_with_the_reason() {
         assert!(stderr.contains(expected), "{options}: {stderr}");
     }
 }
+
+fn planned(folder: &Path, text: &str) -> (serde_json::Value, String) {
+    let path = folder.join("a.scene");
+    fs::write(&path, text).unwrap();
+    let output = octray(&format!("plan {} --json", path.display()));
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{text}: {stderr}");
+    (serde_json::from_slice(&output.stdout).unwrap(), stderr)
+}
+
+#[test]
+fn a_view_of_nothing_costs_something_and_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "v 0 0 9 resolution 24 16 b 0.2 0.3 0.4";
+    let surface = "f 0.3 0.1 0.1 0.5 0.5 0.5 0 0 0 1 0 0";
+    for (text, note) in [
+        (head.to_owned(), "note: the scene has no objects"),
+        (
+            format!("{head} l 1 1 1 1 {surface} s 0 0 40 2"),
+            "note: no object is in sight",
+        ),
+        (
+            format!("{head} {surface} s 0 0 -40 9"),
+            "note: the scene has no lights",
+        ),
+    ] {
+        let (report, stderr) = planned(folder.path(), &text);
+        assert!(stderr.starts_with(note), "{text}: {stderr}");
+        assert!(report["cost"]["instructions"].as_u64().unwrap() > 0);
+        let told = report.to_string();
+        assert!(!told.contains("NaN") && !told.contains("inf"), "{told}");
+    }
+}
+
+/// Without a budget, 2^59 rays would be traced for a pixel.
+#[test]
+fn a_picture_without_end_is_explored_as_far_as_a_budget_goes() {
+    let folder = tempfile::tempdir().unwrap();
+    let hall = "v 0 0 4 at 0 0 0 up 0 1 0 angle 60 resolution 8 6 b 0.2 0.3 0.4 l 0 5 5 1
+        f 0 0 0 0.1 0.1 0.1 0.1 0.1 0.1 9 0.9 0.9 1.3
+        s 0 0 0 9 s 0 0 0 8 s 1 0 0 1.5 s -2 0 0 1 s 0 2 0 1.2";
+    let (report, _) = planned(folder.path(), hall);
+    let unexplored = report["unexplored"].as_str().unwrap();
+    assert!(
+        unexplored.contains("bounces were not explored"),
+        "{unexplored}"
+    );
+    let ball = "v 0 0 9 resolution 8 6 l 1 1 9 1 f 0 0 0 1 1 1 0 0 0 1 0.5 0 s 0 0 -9 4";
+    assert!(planned(folder.path(), ball).0["unexplored"].is_null());
+}

@@ -75,7 +75,8 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         canvas::write_figure(path, &Chart::of(&panels), interrupt)?;
     }
-    output::write_stdout(interrupt, |out| {
+    let results = job.output.iter().chain(&job.csv).chain(&job.json);
+    output::write_report(results, interrupt, |out| {
         out.write_all(report::text(&panels).as_bytes())
     })
 }
@@ -96,6 +97,7 @@ pub struct Judged {
     path: PathBuf,
     scene: NamedScene,
     outcomes: Vec<(RenderSettings, Result<Accuracy, String>)>,
+    unexplored: Option<String>,
 }
 
 /// Measures the distance of every picture of every scene.
@@ -119,10 +121,12 @@ pub fn judge(
                 Ok((*setting, accuracy))
             })
             .collect::<Result<_, Error>>()?;
+        let unexplored = judge.unexplored().map(Into::into);
         Ok(Judged {
             path,
             scene,
             outcomes,
+            unexplored,
         })
     };
     scenes.into_iter().map(judged).collect()
@@ -176,12 +180,10 @@ impl Judged {
             });
             (*setting, measured)
         });
-        Ok(Panel::new(
-            &self.scene.name,
-            &self.path,
-            kind,
-            job,
-            measured.collect(),
-        ))
+        let path = &self.path;
+        Ok(Panel {
+            unexplored: self.unexplored.clone(),
+            ..Panel::new(&self.scene.name, path, kind, job, measured.collect())
+        })
     }
 }

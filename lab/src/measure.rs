@@ -57,7 +57,8 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         })?;
         canvas::write_figure(path, &chart, interrupt)?;
     }
-    output::write_stdout(interrupt, |out| {
+    let results = job.json.iter().chain(&job.csv).chain(&job.chart);
+    output::write_report(results, interrupt, |out| {
         let ratios = ratio::text(&report.rows);
         out.write_all(table::text(&report.rows, &ratios, job.functions).as_bytes())
     })?;

@@ -28,6 +28,7 @@ use model::Model;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
+use octray_render::scene_file;
 use octray_scenes::model::Scene;
 use report::PlanReport;
 
@@ -40,14 +41,14 @@ pub fn run(job: &PlanJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.emit {
         output::probe(path)?;
     }
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let mut report = plan(job, &scene, interrupt)?;
     let fits = report.failures.is_empty();
     if let (true, true, Some(plan), Some(cost)) = (job.measure, fits, &report.plan, &report.cost) {
         let trial = verify::run(&job.scene, &scene, plan, cost, job.board, interrupt)?;
         report.trial = Some(trial);
     }
-    output::write_stdout(interrupt, |out| match job.json {
+    output::write_report(&job.emit, interrupt, |out| match job.json {
         true => {
             serde_json::to_writer_pretty(&mut *out, &report)?;
             writeln!(out)
@@ -93,6 +94,9 @@ fn nearest(job: &PlanJob, scene: &Scene, interrupt: &Interrupt) -> Result<PlanRe
         model: &model,
     };
     let accuracy = scope.accuracy(job.numbers)?;
+    if accuracy.full.hits() == 0.0 && !scene.objects.is_empty() {
+        scene_file::note(scene_file::NOTHING_IN_SIGHT);
+    }
     let candidates = chooser.candidates(&accuracy)?;
     match choose(&candidates, &job.limits) {
         None => Ok(PlanReport::inaccurate(job, &accuracy)),

@@ -17,6 +17,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
+use octray_scenes::name::Shown;
 use octray_stability::method::Method;
 use page::Section;
 use std::num::NonZeroUsize;
@@ -59,6 +60,8 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();
     output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;
-    let summary = format!("{}: {} bytes\n", job.output.display(), page.len());
-    output::write_stdout(interrupt, |out| out.write_all(summary.as_bytes()))
+    let summary = format!("{}: {} bytes\n", Shown(&job.output), page.len());
+    output::write_report([&job.output], interrupt, |out| {
+        out.write_all(summary.as_bytes())
+    })
 }

@@ -13,6 +13,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::renderer;
+use octray_render::scene_file;
 use octray_render::scheduler::{Policy, Scheduler};
 use octray_render::tile::TileSize;
 use serde::Serialize;
@@ -71,7 +72,7 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.csv.iter().chain(&job.chart) {
         output::probe(path)?;
     }
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let renderer = renderer::prepare(&scene, &job.settings)?;
     let map = CostMap::probe(&*renderer, NonZeroU32::MIN, interrupt)?;
     let region = renderer.built().region();
@@ -86,14 +87,16 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
         let chart = Chart::new(title, &runs, &job.policies, &job.shapes, &job.processors);
         canvas::write_figure(path, &chart, interrupt)?;
     }
-    output::write_stdout(interrupt, |out| match job.json {
+    let results = job.csv.iter().chain(&job.chart);
+    output::write_report(results, interrupt, |out| match job.json {
         true => {
             let total = map.total();
             let scene = job.scene.display().to_string();
             let object = serde_json::json!({"scene": scene, "instructions": total, "runs": runs});
             writeln!(out, "{object}")
         }
-        false => writeln!(out, "{}", table(job, &runs)),
+        false if map.total() > 0.0 => writeln!(out, "{}", table(job, &runs)),
+        false => writeln!(out, "nothing to share: {}", scene_file::NOTHING_IN_SIGHT),
     })
 }
 

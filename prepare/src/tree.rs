@@ -9,12 +9,17 @@ use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Aabb;
 
+/// Octrees have no more nodes than this, or than this for each object, unless an arena is asked for: in one whose
+/// objects splitting never separates, eight cells take the place of each.
+const MOST_NODES: usize = 1 << 20;
+const NODES_PER_OBJECT: usize = 256;
+
 /// How a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Growth {
     /// Depth and leaf size.
     pub options: BuildOptions,
-    /// The maximum number of nodes; as many as needed if `None`.
+    /// The maximum number of nodes. If `None`, as many as needed, but octrees are bounded by the number of objects.
     pub arena: Option<usize>,
 }
 
@@ -34,7 +39,8 @@ impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
         let count = scene.shapes().len();
         let mut links = vec![ObjectRef::default(); count];
         let mut boxes = vec![Aabb::default(); count];
-        let mut room = growth.arena.unwrap_or(count / 2 + 16).max(1);
+        let most = growth.arena.unwrap_or(usize::MAX).max(1);
+        let mut room = (count / 2 + 16).min(most);
         loop {
             let mut nodes = vec![Bvh8Node::EMPTY; room];
             let memory = Bvh8Memory {
@@ -47,8 +53,8 @@ impl<P: octray_core::accel::BoundScalar> OwnedBvh8<P> {
                 .map_or((0, BuildStats::default()), |(tree, summary)| {
                     (tree.nodes.len(), summary)
                 });
-            if summary.unsplit > 0 && growth.arena.is_none() {
-                room *= 2;
+            if summary.unsplit > 0 && room < most {
+                room = room.saturating_mul(2).min(most);
                 continue;
             }
             nodes.truncate(used);
@@ -90,7 +96,8 @@ impl OwnedCompactBvh8 {
         let count = scene.shapes().len();
         let mut links = vec![ObjectRef::default(); count];
         let mut boxes = vec![Aabb::default(); count];
-        let mut words = vec![0; 18 * growth.arena.unwrap_or(count + 1)];
+        let most = growth.arena.unwrap_or(usize::MAX);
+        let mut words = vec![0; 18 * (count + 1).min(most)];
         let (tree, summary) = CompactBvh8::build(
             &scene.shapes(),
             scene.diameter,
@@ -133,7 +140,9 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
             LinkBy::Box
         };
         let count = scene.shapes().len();
-        let mut room = growth.arena.unwrap_or(8 * count + 64).max(1);
+        let default = MOST_NODES.max(NODES_PER_OBJECT.saturating_mul(count));
+        let most = growth.arena.unwrap_or(default).max(1);
+        let mut room = (8 * count + 64).min(most);
         let mut link_room = 8 * room + count;
         loop {
             let mut nodes = vec![OctreeNode::EMPTY; room];
@@ -149,10 +158,13 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
             .map_or((0, 0, BuildStats::default()), |(tree, summary)| {
                 (tree.nodes.len(), tree.links.len(), summary)
             });
-            // Memory is bounded even if splitting never separates the objects.
-            if summary.unsplit > 0 && growth.arena.is_none() && room < 1 << 24 {
-                room *= 2;
-                link_room *= 2;
+            if summary.unsplit > 0 && room < most {
+                // With an arena as large as asked for, links are as many as for an arena that was so from the start.
+                room = room.saturating_mul(2).min(most);
+                link_room = match room == most {
+                    true => room.saturating_mul(8).saturating_add(count),
+                    false => 2 * link_room,
+                };
                 continue;
             }
             nodes.truncate(used);

@@ -7,6 +7,8 @@ use thiserror::Error;
 
 pub(crate) mod plane;
 
+pub(crate) use plane::Oddity;
+
 /// What is wrong with one value of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -41,12 +43,6 @@ pub enum Fault {
     /// A vertex or normal range outside its list.
     #[error("vertices out of range")]
     VertexRange,
-    /// A vertex equal to the one before it.
-    #[error("vertex repeated")]
-    RepeatedVertex {
-        /// Which of the polygon's vertices; 0 if the last one equals the first.
-        vertex: usize,
-    },
     /// All vertices on one line.
     #[error("polygon with all its vertices on one line")]
     Collinear,
@@ -248,7 +244,8 @@ pub(crate) fn cuboid(centre: &Point, size: &Point) -> Result<(), Fault> {
     }
 }
 
-pub(crate) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
+/// Returns what is odd about a polygon that can be rendered, if anything.
+pub(crate) fn polygon(vertices: &[Point]) -> Result<Option<Oddity>, Fault> {
     ensure(vertices.len() >= 3, Fault::TooFewVertices)?;
     vertices.iter().try_for_each(|vertex| finite(vertex))?;
     plane::polygon(vertices)
@@ -276,7 +273,9 @@ fn object(scene: &Scene, object: &Object) -> Result<(), Fault> {
             top_radius,
         } => cone(base, top, [*base_radius, *top_radius]),
         Shape::Cuboid { centre, size } => cuboid(centre, size),
-        Shape::Polygon { first, count } => polygon(range(&scene.vertices, *first, *count)?),
+        Shape::Polygon { first, count } => {
+            polygon(range(&scene.vertices, *first, *count)?).map(drop)
+        }
         Shape::Patch {
             first,
             count,

@@ -1,7 +1,10 @@
-//! Mistakes in a scene file. Each has a kind and a place, and is drawn as text only on request.
+//! Mistakes in a scene file, and warnings about it. Each has a kind and a place, and is drawn as text only on request.
 
 mod draw;
+mod warning;
 mod words;
+
+pub use warning::{MOST_WARNINGS, Warning, WarningKind, Warnings};
 
 use crate::check::Fault;
 use crate::word::{Keyword, Span};
@@ -32,6 +35,8 @@ pub enum MistakeKind {
         keyword: Keyword,
         /// How many numbers follow it.
         found: usize,
+        /// Where the keyword stands; the mistake's place may be lines below.
+        begins: Span,
     },
     /// A polygon or patch with more or fewer numbers than its vertices need.
     VertexCount {
@@ -42,6 +47,16 @@ pub enum MistakeKind {
         /// How many numbers follow the announcement.
         found: usize,
     },
+    /// Something of the thesis's dialect, [`Keyword::Surface`] or [`Keyword::Resolution`], in a file whose viewpoint is
+    /// NFF's: what its numbers mean cannot be told.
+    MixedDialects {
+        /// The keyword.
+        keyword: Keyword,
+    },
+    /// A word of extensions of NFF that have textures. Only the first is reported.
+    Texture,
+    /// The whole file is in Sense8's format, which is called NFF too. Reading stops here.
+    Sense8,
     /// A number of vertices that is not whole, negative, or beyond `u32`.
     NotACount,
     /// A word other than `parallel` and `perspective` after `view`, or none.
@@ -114,6 +129,7 @@ impl std::error::Error for Diagnostics {}
 /// Collects the mistakes that the parser finds.
 #[derive(Debug, Default)]
 pub(crate) struct Sink {
+    pub(crate) warnings: Warnings,
     list: Vec<Diagnostic>,
     more: bool,
     hopeless: bool,
@@ -121,7 +137,14 @@ pub(crate) struct Sink {
 
 impl Sink {
     pub(crate) fn push(&mut self, kind: MistakeKind, span: Span) {
-        self.hopeless |= matches!(kind, MistakeKind::Binary | MistakeKind::Empty);
+        self.hopeless |= matches!(
+            kind,
+            MistakeKind::Binary | MistakeKind::Empty | MistakeKind::Sense8
+        );
+        let known = |mistake: &Diagnostic| mistake.kind == MistakeKind::Texture;
+        if kind == MistakeKind::Texture && self.list.iter().any(known) {
+            return;
+        }
         if self.list.len() < MOST {
             self.list.push(Diagnostic { kind, span });
         } else {
@@ -139,11 +162,16 @@ impl Sink {
         self.more || self.hopeless
     }
 
-    /// Returns `value` if no mistake was found.
-    pub(crate) fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
-        let Self { mut list, more, .. } = self;
+    /// Returns `value` with the warnings if no mistake was found.
+    pub(crate) fn into_result<T>(self, value: T) -> Result<(T, Warnings), Diagnostics> {
+        let Self {
+            warnings,
+            mut list,
+            more,
+            ..
+        } = self;
         if list.is_empty() {
-            return Ok(value);
+            return Ok((value, warnings));
         }
         list.sort_by_key(|mistake| mistake.span.start);
         Err(Diagnostics { list, more })

@@ -9,6 +9,8 @@
 //! | [`check`] | checks the invariants of a scene, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
 //! | [`mod@generate`] | generates scenes of any size from a seed |
+//! | [`input`] | reads whole files, pipes and standard input, up to a bound |
+//! | [`name`] | shows the names of files in messages |
 //! | [`mod@write`] | writes a [`model::Scene`] as text that parses to the same scene |
 //!
 //! ```
@@ -24,14 +26,16 @@
 pub mod check;
 pub mod diagnostic;
 pub mod generate;
+pub mod input;
 pub mod model;
+pub mod name;
 pub mod parse;
 pub mod point;
 mod word;
 pub mod write;
 
 pub use generate::generate;
-pub use parse::{ReadError, parse, read};
+pub use parse::{ReadError, parse, parse_with_warnings, read, read_with_warnings};
 pub use write::write;
 
 /// The examples of the README are compiled and run.

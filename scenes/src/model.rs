@@ -34,6 +34,26 @@ pub struct Scene {
     pub normals: Vec<Point>,
 }
 
+/// A picture of 512 × 512 black pixels, seen from one unit before them.
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            camera: Camera::Thesis {
+                viewpoint: [0.0, 0.0, 1.0],
+                projection: Projection::Perspective,
+            },
+            width: 512,
+            height: 512,
+            background: [0.0; 3],
+            lights: Vec::new(),
+            surfaces: Vec::new(),
+            objects: Vec::new(),
+            vertices: Vec::new(),
+            normals: Vec::new(),
+        }
+    }
+}
+
 /// The camera of `docs/MODEL.md` in either of its forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -10,8 +10,10 @@ mod entity;
 mod header;
 mod token;
 
-use crate::diagnostic::{Diagnostics, Sink};
+use crate::diagnostic::{Diagnostics, MistakeKind, Sink, Warnings};
+use crate::input;
 use crate::model::Scene;
+use crate::name::Shown;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -23,7 +25,20 @@ pub use crate::word::{Keyword, Span};
 /// # Errors
 /// All mistakes up to [`MOST`](crate::diagnostic::MOST), in the order of the source.
 pub fn parse(source: &str) -> Result<Scene, Diagnostics> {
+    parse_with_warnings(source).map(|(scene, _)| scene)
+}
+
+/// Reads a scene from its text. What is odd about it but harmless is returned beside it.
+///
+/// # Errors
+/// Those of [`parse`].
+pub fn parse_with_warnings(source: &str) -> Result<(Scene, Warnings), Diagnostics> {
+    let source = without_dos_end(source);
     let mut mistakes = Sink::default();
+    if let Some(span) = sense8(source) {
+        mistakes.push(MistakeKind::Sense8, span);
+        return mistakes.into_result(Scene::default());
+    }
     let mut entities = entity::Entities::new(source);
     let mut builder = build::Builder::default();
     let mut numbers = Vec::new();
@@ -37,33 +52,69 @@ pub fn parse(source: &str) -> Result<Scene, Diagnostics> {
     mistakes.into_result(scene)
 }
 
-/// Reads a scene from a file.
+/// Returns the source without the control-Z that ends files of DOS, and what is behind it if that is no text.
+fn without_dos_end(source: &str) -> &str {
+    let text = source.trim_end_matches(|c: char| matches!(c, '\u{1a}' | '\0') || c.is_whitespace());
+    match source[text.len()..].find('\u{1a}') {
+        Some(end) => &source[..text.len() + end],
+        None => source,
+    }
+}
+
+/// Returns the place of the word with which a file in Sense8's format begins, after comments of either format.
+fn sense8(source: &str) -> Option<Span> {
+    let is_comment = |line: &&str| {
+        let line = line.trim();
+        line.is_empty() || line.starts_with("//") || line.starts_with('#')
+    };
+    let line = source
+        .trim_start_matches('\u{feff}')
+        .lines()
+        .find(|line| !is_comment(line))?;
+    let word = line.split_whitespace().next()?;
+    let start = word.as_ptr() as usize - source.as_ptr() as usize;
+    word.eq_ignore_ascii_case("nff").then_some(Span {
+        start,
+        end: start + word.len(),
+    })
+}
+
+/// Reads a scene from a file, a pipe or, if the path is `-`, standard input.
 ///
 /// # Errors
-/// If there is no such file, it is not a regular file, cannot be read or is not UTF-8, or it contains mistakes.
+/// If there is no such file, it is a folder or a device, cannot be read or is too large, or it contains mistakes.
 /// Displayed, the error holds all mistakes, drawn with their lines.
 pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
+    read_with_warnings(path).map(|(scene, _)| scene)
+}
+
+/// Reads a scene as [`read`] does. Returned beside it is what is odd about it but harmless, drawn; empty if nothing is.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with_warnings(path: impl AsRef<Path>) -> Result<(Scene, String), ReadError> {
     let path = path.as_ref();
-    let unreadable = |error: io::Error| match error.kind() {
+    let source = input::read_text(path, input::MOST_SCENE).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => ReadError::NotFound { path: path.into() },
+        io::ErrorKind::IsADirectory | io::ErrorKind::InvalidInput => {
+            ReadError::NotAFile { path: path.into() }
+        }
         _ => ReadError::Unreadable {
             path: path.into(),
             error,
         },
-    };
-    // A pipe or a device might never end.
-    if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
-        return Err(ReadError::NotAFile { path: path.into() });
-    }
-    let bytes = std::fs::read(path).map_err(unreadable)?;
-    let source = String::from_utf8(bytes).map_err(|error| ReadError::NotText {
-        path: path.into(),
-        offset: error.utf8_error().valid_up_to(),
     })?;
-    parse(&source).map_err(|diagnostics| ReadError::Mistakes {
-        drawn: diagnostics.draw(&path.display().to_string(), &source),
-        diagnostics,
-    })
+    let name = match input::is_stdin(path) {
+        true => "standard input".into(),
+        false => path.to_string_lossy(),
+    };
+    match parse_with_warnings(&source) {
+        Ok((scene, warnings)) => Ok((scene, warnings.draw(&name, &source))),
+        Err(diagnostics) => Err(ReadError::Mistakes {
+            drawn: diagnostics.draw(&name, &source),
+            diagnostics,
+        }),
+    }
 }
 
 /// Why reading a scene failed.
@@ -71,33 +122,25 @@ pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
 #[non_exhaustive]
 pub enum ReadError {
     /// No such file.
-    #[error("error: {}: no such file", .path.display())]
+    #[error("error: {}: no such file", Shown(path))]
     NotFound {
         /// The requested path.
         path: PathBuf,
     },
-    /// A folder, a pipe or a device.
-    #[error("error: {}: not a file", .path.display())]
+    /// A folder or a device.
+    #[error("error: {}: not a file", Shown(path))]
     NotAFile {
         /// The requested path.
         path: PathBuf,
     },
     /// The system refused to read it.
-    #[error("error: {}: cannot be read: {error}", .path.display())]
+    #[error("error: {}: cannot be read: {error}", Shown(path))]
     Unreadable {
         /// The requested path.
         path: PathBuf,
         /// The system's reason.
         #[source]
         error: io::Error,
-    },
-    /// Bytes that are not UTF-8.
-    #[error("error: {}: not a text file: byte {offset} is not UTF-8", .path.display())]
-    NotText {
-        /// The requested path.
-        path: PathBuf,
-        /// The first wrong byte, counted from 0.
-        offset: usize,
     },
     /// The text has mistakes.
     #[error("{drawn}")]

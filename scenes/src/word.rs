@@ -46,6 +46,21 @@ pub enum Keyword {
     Patch,
 }
 
+/// Words of extensions of NFF that describe textures.
+const OF_TEXTURES: [&str; 8] = ["tess", "tex", "texture", "map", "tt", "tp", "tpp", "uv"];
+
+/// The ends of names of pictures.
+const OF_PICTURES: [&str; 17] = [
+    ".bmp", ".exr", ".gif", ".hdr", ".jpeg", ".jpg", ".pcx", ".pic", ".png", ".ppm", ".ras",
+    ".rgb", ".sgi", ".tga", ".tif", ".tiff", ".txr",
+];
+
+/// Returns whether a word that is no keyword belongs to a texture: it describes one, or names a picture.
+pub(crate) fn belongs_to_textures(text: &str) -> bool {
+    let text = text.to_ascii_lowercase();
+    OF_TEXTURES.contains(&&*text) || OF_PICTURES.iter().any(|end| text.ends_with(end))
+}
+
 impl Keyword {
     /// Returns the keyword as it is written.
     pub fn text(self) -> &'static str {

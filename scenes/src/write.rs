@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn every_entity_comes_back() {
         let source = "
-            v from 1 2 3 at 0 0 0 up 0 0 1 angle 45.5 hither 1 resolution 640 480
+            v 1 2 3 at 0 0 0 up 0 0 1 angle 45.5 hither 1 resolution 480 640
             view parallel  b 0.1 0.2 0.3
             l 1 2 3  l 1 2 3 0.5  l 1 2 3 1 0.5 0.25
             f 1 0.5 0.25 0.8 0.2 12.5 0 0

@@ -39,11 +39,16 @@ fn a_binary_file_is_refused() {
         Err(ReadError::NotAFile { .. })
     ));
 
-    std::fs::write(&path, b"v 1 2 3\n# caf\xe9").unwrap();
-    assert!(matches!(
-        read(&path),
-        Err(ReadError::NotText { offset: 13, .. })
-    ));
+    std::fs::write(&path, b"\x89PNG\r\n\x1a\n").unwrap();
+    let error = read(&path).unwrap_err().to_string();
+    assert!(
+        error.contains("picture.scene:1:1: error: not a text file"),
+        "{error}"
+    );
+
+    std::fs::write(&path, b"\xff\xfev\0 \x001\0").unwrap();
+    let error = read(&path).unwrap_err().to_string();
+    assert!(error.contains("UTF-16"), "{error}");
     std::fs::write(path.join("below"), "").unwrap_err();
     assert!(matches!(
         read(path.join("below")),

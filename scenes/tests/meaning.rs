@@ -34,10 +34,6 @@ fn a_resolution_is_height_first_but_inside_the_nff_viewpoint() {
     let nff = "v from 0 0 1 at 0 0 0 up 0 1 0 angle 9 hither 1";
     assert_eq!(size(&format!("{nff} resolution 100 200")), (100, 200));
     assert_eq!(
-        size(&format!("{nff} b 0 0 0 resolution 100 200")),
-        (200, 100)
-    );
-    assert_eq!(
         size("v 0 0 1 at 0 0 0 up 0 1 0 angle 9 resolution 100 200"),
         (200, 100)
     );

@@ -108,7 +108,7 @@ fn space() -> impl Strategy<Value = &'static str> {
         "\r\n",
         "\r",
         "\u{c}",
-        "#v 1 2 3\n",
+        "\t#v 1 2 3\n",
         " # s 0 \u{e9}\r\n",
     ])
 }

@@ -27,6 +27,7 @@ mod walk;
 pub use room::{COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactStack, StackTooSmall};
 
 use crate::object::ObjectRef;
+use node::{CHILD, HEADER};
 
 /// A finished compact tree, walked with a stack of `ROOM` entries, which is never too small: no tree
 /// that needs more can be made.
@@ -71,17 +72,30 @@ impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
     /// constant context, too.
     ///
     /// # Errors
-    /// If a walk could need more room than `ROOM`: nodes would be left out without a word.
+    /// If a walk could need more room than `ROOM`, for nodes would be left out without a word; or if the words and
+    /// links are not those of a tree, for its walk might have no end.
     pub const fn new(
         words: &'a [u32],
         links: &'a [ObjectRef],
         tick: u32,
     ) -> Result<Self, StackTooSmall> {
-        let needed = room::required(words);
+        let needed = room::required(words, links);
         if needed > ROOM {
             return Err(StackTooSmall { needed });
         }
         Ok(Self { words, links, tick })
+    }
+
+    /// What a walk sees of the tree if it goes no further than the root: to tell what a root costs from what the rest does.
+    #[must_use]
+    pub fn root_alone(&self) -> Self {
+        // The upper bits of a node's second word hold the number of its children. A place beyond the words is left out.
+        let children = self.words.get(1).map_or(0, |word| (word >> 28) as usize);
+        let size = HEADER + children * CHILD;
+        Self {
+            words: self.words.get(..size).unwrap_or(self.words),
+            ..*self
+        }
     }
 
     /// The nodes, the root first.
@@ -102,6 +116,6 @@ impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
     /// The most nodes and leaves that can ever wait, whatever the ray: the least `ROOM` that
     /// [`CompactBvh8::new`] accepts.
     pub const fn required_stack(&self) -> usize {
-        room::required(self.words)
+        room::required(self.words, self.links)
     }
 }

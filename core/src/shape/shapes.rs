@@ -196,6 +196,27 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         bounds.unwrap_or_default()
     }
 
+    /// Whether two objects are the same shape at the same place.
+    pub fn coincide(&self, a: ObjectRef, b: ObjectRef) -> bool {
+        let (i, j) = (a.index(), b.index());
+        if a.kind() != b.kind() {
+            return false;
+        }
+        match a.kind() {
+            ObjectKind::Sphere => self.sphere(i) == self.sphere(j),
+            ObjectKind::Triangle => self.triangle(i) == self.triangle(j),
+            ObjectKind::Polygon => match (self.polygon(i), self.polygon(j)) {
+                (Some(a), Some(b)) => {
+                    let corners = self.outlines.corners;
+                    a.plane == b.plane && a.corners(corners) == b.corners(corners)
+                }
+                _ => false,
+            },
+            ObjectKind::Cone => self.cone(i) == self.cone(j),
+            ObjectKind::Cuboid => self.cuboid(i) == self.cuboid(j),
+        }
+    }
+
     /// The surface at the point at distance `t` of a ray that meets the object there.
     #[inline(always)]
     pub fn contact(&self, object: ObjectRef, ray: &Ray<S>, t: S) -> Contact<S> {

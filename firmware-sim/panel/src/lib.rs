@@ -18,7 +18,9 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::picture::Target;
 use octray_render::renderer;
+use octray_render::scene_file;
 use octray_render::tile::Tile;
+use octray_scenes::name::Shown;
 use screen::Screen;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -83,7 +85,7 @@ where
     C: PanelColor + Into<Rgb888> + From<Rgb888>,
 {
     output::probe(&job.output.path)?;
-    let scene = octray_scenes::read(&job.scene)?;
+    let scene = scene_file::read(&job.scene)?;
     let (width, height) = job.panel;
     let settings = RenderSettings {
         arith: job.arith,
@@ -101,7 +103,7 @@ where
         panel: &mut screen,
         ordered: job.dither,
     };
-    let mut worker = renderer.worker();
+    let mut worker = renderer.worker(interrupt);
     let mut strip = vec![[0; 3]; (width * ROWS) as usize];
     // Not the time that the simulated panel takes.
     let mut tracing = std::time::Duration::ZERO;
@@ -125,8 +127,8 @@ where
     }
     job.output
         .write(&screen.picture()?, Default::default(), interrupt)?;
-    output::write_stdout(interrupt, |out| {
-        writeln!(out, "{}: {caption}", job.output.path.display())
+    output::write_report([&job.output.path], interrupt, |out| {
+        writeln!(out, "{}: {caption}", Shown(&job.output.path))
     })?;
     screen.wait()
 }

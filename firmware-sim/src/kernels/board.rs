@@ -101,12 +101,8 @@ fn shape(kind: ObjectKind) -> u32 {
 fn tree() -> u32 {
     let [walk, root] = [kernels::kernel_walk as Walk, kernels::kernel_root as Walk].map(black_box);
     let (scene, tree) = (black_box(&SCENE), black_box(&TREE));
-    // A node has two words and two more per child; the upper bits of the second word hold the number of children.
-    let words = tree.words();
-    let size = words.get(1).map_or(0, |word| 2 + 2 * (word >> 28));
-    let root_alone = words.get(..size as usize).unwrap_or_default();
-    let trunk = Tree::new(root_alone, tree.links(), tree.tick()).unwrap_or(*tree);
-    let trunk = black_box(&trunk);
+    let root_alone = tree.root_alone();
+    let trunk = black_box(&root_alone);
     let mut stack = Stack::default();
     let mut steps = 0;
     for ray in scene.shapes.refs().flat_map(|object| aimed(object, WIDE)) {

@@ -132,6 +132,7 @@ impl Request<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interrupt::Interrupt;
     use crate::tile::Tile;
     use octray_core::frame::Region;
     use octray_core::scalar::Fixed;
@@ -163,7 +164,7 @@ mod tests {
     /// Traces the picture's rows one by one, so that two threads are sure to be at it at once; how many results were
     /// clamped.
     fn saturations(renderer: &dyn Renderer) -> u64 {
-        let mut worker = renderer.worker();
+        let mut worker = renderer.worker(&Interrupt::new());
         for row in 0..24 {
             let mut levels = [[0; 3]; 32];
             worker.trace(Tile {
@@ -192,7 +193,10 @@ mod tests {
             assert_eq!((bright.join().unwrap(), dim.join().unwrap()), (alone, 0));
         });
         // On one thread, in turns.
-        let (mut loud, mut quiet) = (bright.worker(), dim.worker());
+        let (mut loud, mut quiet) = (
+            bright.worker(&Interrupt::new()),
+            dim.worker(&Interrupt::new()),
+        );
         for row in 0..24 {
             for worker in [&mut loud, &mut quiet] {
                 worker.probe(&Region {

@@ -93,7 +93,7 @@ impl CostMap {
         let cell = cell.get().next_multiple_of(block);
         let middle = cell / 2 / block * block;
         let rays = f64::from(cell / block).powi(2);
-        let mut worker = renderer.worker();
+        let mut worker = renderer.worker(interrupt);
         let mut before = 0.0;
         let Region { columns, rows } = built.active.clone();
         // Rays start where blocks do, which begin at even pixels.
@@ -115,6 +115,8 @@ impl CostMap {
             Ok(starts(columns.start, columns.end).map(of_cell).collect())
         });
         let costs: Vec<Vec<f64>> = costs.collect::<Result<_, Error>>()?;
+        drop(worker);
+        interrupt.check()?;
         let region = Region {
             columns: columns.start / block * block..columns.end,
             rows: rows.start / block * block..rows.end,

@@ -1,5 +1,6 @@
 //! What can go wrong.
 
+use octray_scenes::name::Shown;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +15,7 @@ pub enum Error {
     #[error("{0}")]
     Scene(String),
     /// A file could not be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {source}", Shown(path))]
     Read {
         /// The file as the user named it.
         path: PathBuf,
@@ -22,7 +23,7 @@ pub enum Error {
         source: io::Error,
     },
     /// A file could not be written; nothing is left behind.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}: {source}", Shown(path))]
     Write {
         /// The file as the user named it.
         path: PathBuf,
@@ -44,6 +45,9 @@ pub enum Error {
     /// Work that was accepted could not be done, for this reason.
     #[error("{0}")]
     Failed(String),
+    /// The picture takes more rays than this, the budget of the work.
+    #[error("the picture takes more than {} rays, not counting shadow rays", crate::counts::thousands(*.0))]
+    TooManyRays(u64),
     /// The work was asked to stop.
     #[error("interrupted")]
     Interrupted,

@@ -27,9 +27,10 @@
 //! | [`mod@render`], [`stats`] | a scene rendered, and what it cost |
 //! | [`cost`] | what parts of a picture cost, estimated from counted events |
 //! | [`picture`], [`output`] | pictures, and files that are written atomically |
+//! | [`scene_file`] | reads scenes for commands, telling their warnings |
 //! | [`metric`], [`heat`] | how far apart two pictures are, in numbers and as a picture |
 //! | [`counts`] | what is in a scene, counted |
-//! | [`interrupt`], [`progress`], [`error`] | a request to stop, how far the work is, what can go wrong |
+//! | [`interrupt`], [`progress`], [`error`] | a request to stop and a budget of rays, how far the work is, what can go wrong |
 
 mod build;
 mod cache_padded;
@@ -47,11 +48,13 @@ mod prepared;
 pub mod progress;
 pub mod render;
 pub mod renderer;
+pub mod scene_file;
 pub mod schedule;
 pub mod scheduler;
 pub mod stats;
 pub mod threads;
 pub mod tile;
+mod watch;
 
 pub use error::Error;
 pub use octray_prepare::{Arith, Format, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};

@@ -1,60 +1,100 @@
 //! Writing whole files or nothing: a temporary file in the same folder, renamed once complete.
 
+mod temporary;
+
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use temporary::Temporary;
+
+pub use temporary::discard_all as discard_temporaries;
 
 const BUFFER: usize = 1 << 16;
 
+/// As many symbolic links lead on from each other at most.
+const MOST_LINKS: usize = 40;
+
 /// Write the file `path` by calling `fill` with where to write.
 ///
-/// A regular file appears (or is replaced) only once `fill` has ended well; until then, and after any
-/// failure or interrupt, `path` is as it was. A symbolic link is followed. What is no regular file (a
-/// device, a pipe) is written directly.
+/// A regular file appears (or is replaced, keeping its permissions) only once `fill` has ended well; until then, and
+/// after any failure or interrupt, `path` is as it was. A symbolic link is followed, also to a file that does not exist
+/// yet. What is no regular file (a device, a pipe) is written directly, and [standard output](is_stdout) too.
 ///
 /// # Errors
-/// [`Error::Write`] naming `path` and the cause, [`Error::Interrupted`] when asked to stop meanwhile.
+/// [`Error::Write`] naming `path` and the cause, [`Error::Interrupted`] when asked to stop meanwhile; for standard
+/// output those of [`write_stdout`].
 pub fn write_file(
     path: &Path,
     interrupt: &Interrupt,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Error> {
+    if is_stdout(path) {
+        return write_stdout(interrupt, fill);
+    }
     let write = || -> io::Result<()> {
         match Sink::open(path)? {
             Sink::Device(file) => through(file, interrupt, fill),
             Sink::Regular { temporary, target } => {
-                // Not through the temporary file itself: its errors name it.
-                through(temporary.as_file(), interrupt, fill)?;
+                if let Some(file) = temporary.file() {
+                    through(file, interrupt, fill)?;
+                }
                 stop_if(interrupt)?;
-                temporary.persist(target).map_err(|failed| failed.error)?;
-                Ok(())
+                temporary.persist(&target)
             }
         }
     };
-    write().map_err(|source| {
-        if interrupt.requested() {
-            Error::Interrupted
-        } else {
-            Error::write(path, source)
-        }
+    write().map_err(|source| match interrupt.requested() {
+        true => Error::Interrupted,
+        false => Error::write(path, source),
     })
 }
 
-/// Find out before long work whether `path` could be written, leaving no trace. Devices and pipes are
-/// not touched, for a reader of theirs might notice.
+/// Find out before long work whether `path` could be written, leaving no trace but for temporary files of killed
+/// processes in its folder, which are removed. Devices and pipes are not touched, for a reader of theirs might notice.
 ///
 /// # Errors
 /// [`Error::Write`] as [`write_file`] would give it.
 pub fn probe(path: &Path) -> Result<(), Error> {
-    if fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+    if is_stdout(path) || fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
+    {
         return Ok(());
     }
-    Sink::open(path)
-        .map(drop)
-        .map_err(|source| Error::write(path, source))
+    let probe = || -> io::Result<()> {
+        if let Sink::Regular { target, .. } = Sink::open(path)? {
+            temporary::remove_stale(folder_of(&target));
+        }
+        Ok(())
+    };
+    probe().map_err(|source| Error::write(path, source))
+}
+
+/// Whether a result of this name goes to standard output: `-`, or a name that the system has for it.
+pub fn is_stdout(path: &Path) -> bool {
+    let names = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    names.iter().any(|name| path.as_os_str() == *name)
+}
+
+/// The file that `path` is, symbolic links followed, also where they lead to a file that does not exist yet.
+///
+/// # Errors
+/// If links lead to each other, or something on the way cannot be looked at.
+pub fn target_of(path: &Path) -> io::Result<PathBuf> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => return path.canonicalize(),
+        Ok(_) => return Ok(path.to_owned()),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        Err(_) => {}
+    }
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(next) => path = folder_of(&path).join(next),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
 }
 
 /// Write to standard output by calling `fill`.
@@ -73,11 +113,26 @@ pub fn write_stdout(
     })
 }
 
+/// Write a report by calling `fill`: to standard output, or to standard error if a result goes to standard output.
+///
+/// # Errors
+/// As [`write_stdout`].
+pub fn write_report<'a>(
+    results: impl IntoIterator<Item = &'a PathBuf>,
+    interrupt: &Interrupt,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
+    match results.into_iter().any(|path| is_stdout(path)) {
+        true => through(io::stderr().lock(), interrupt, fill).map_err(Error::Stdout),
+        false => write_stdout(interrupt, fill),
+    }
+}
+
 /// Where the bytes of a file go.
 enum Sink {
     /// Beside the target, under another name.
     Regular {
-        temporary: NamedTempFile,
+        temporary: Temporary,
         target: PathBuf,
     },
     /// Into what is there already.
@@ -86,25 +141,27 @@ enum Sink {
 
 impl Sink {
     fn open(path: &Path) -> io::Result<Self> {
-        let target = match fs::metadata(path) {
+        let target = target_of(path)?;
+        let permissions = match fs::metadata(&target) {
             Ok(found) if found.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if found.is_file() => {
                 // Refuse what the user has protected: a rename would not.
                 OpenOptions::new().write(true).open(path)?;
-                path.canonicalize()?
+                Some(found.permissions())
             }
             Ok(_) => return OpenOptions::new().write(true).open(path).map(Self::Device),
-            Err(_) => path.to_owned(),
+            Err(_) => None,
         };
-        let folder = match target.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        // Opened by std, so that the permissions are the usual ones and an error names no temporary file.
-        let temporary = tempfile::Builder::new()
-            .prefix(".octray-")
-            .make_in(folder, |path| File::create_new(path))?;
+        let temporary = Temporary::new(folder_of(&target), permissions)?;
         Ok(Self::Regular { temporary, target })
+    }
+}
+
+/// The folder that holds a file of this name.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }
 
@@ -202,6 +259,74 @@ mod tests {
         })
         .unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[test]
+    fn a_link_to_no_file_yet_is_followed_and_a_loop_refused() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let name = |name: &str| folder.path().join(name);
+        fs::create_dir(name("deep")).unwrap();
+        symlink("deep/second", name("first")).unwrap();
+        symlink("../file", name("deep/second")).unwrap();
+        write_file(&name("first"), &Interrupt::new(), |out| {
+            out.write_all(b"new")
+        })
+        .unwrap();
+        assert_eq!(fs::read(name("file")).unwrap(), b"new");
+        assert_eq!(
+            target_of(&name("first")).unwrap(),
+            name("file").canonicalize().unwrap()
+        );
+
+        symlink("loop", name("loop")).unwrap();
+        symlink("no/file", name("nowhere")).unwrap();
+        for link in ["loop", "nowhere"] {
+            let write = |out: &mut dyn Write| out.write_all(b"new");
+            write_file(&name(link), &Interrupt::new(), write).unwrap_err();
+            probe(&name(link)).unwrap_err();
+            assert!(fs::symlink_metadata(name(link)).unwrap().is_symlink());
+        }
+        assert_eq!(
+            entries(folder.path()),
+            ["deep", "file", "first", "loop", "nowhere"]
+        );
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_what_is_being_written_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".octray-killed.part", ".octray-settings", "other.part"] {
+            fs::write(folder.path().join(name), "half").unwrap();
+        }
+        let live = Temporary::new(folder.path(), None).unwrap();
+        probe(&folder.path().join("a.png")).unwrap();
+        assert_eq!(
+            entries(folder.path()).len(),
+            3,
+            "{:?}",
+            entries(folder.path())
+        );
+        assert!(!folder.path().join(".octray-killed.part").exists());
+        live.persist(&folder.path().join("whole")).unwrap();
+        assert_eq!(
+            entries(folder.path()),
+            [".octray-settings", "other.part", "whole"]
+        );
+    }
+
+    #[test]
+    fn a_replaced_file_keeps_its_permissions() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        fs::write(&path, "old").unwrap();
+        for mode in [0o600, 0o664, 0o777] {
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+            write_file(&path, &Interrupt::new(), |out| out.write_all(b"new")).unwrap();
+            let found = fs::metadata(&path).unwrap().permissions().mode();
+            assert_eq!(found & 0o777, mode);
+        }
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! A scene in some arithmetic with some tree, and what one thread traces it with.
 
 use crate::cache_padded::CachePadded;
+use crate::interrupt::Interrupt;
 use crate::owned::{AnyAccelerator, AnyStack, OwnedAccelerator};
 use crate::renderer::{Built, FirstHit, Renderer, Worker};
 use crate::tile::{Intensity, Level, Tile};
+use crate::watch::Watch;
 use octray_core::frame::Region;
 use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
@@ -27,7 +29,7 @@ impl<S: Quantize> Renderer for PreparedScene<S> {
         &self.built
     }
 
-    fn worker(&self) -> Box<dyn Worker + '_> {
+    fn worker(&self, interrupt: &Interrupt) -> Box<dyn Worker + '_> {
         let scene = &self.prepared.scene;
         Box::new(Tracing {
             ready: self,
@@ -35,7 +37,7 @@ impl<S: Quantize> Renderer for PreparedScene<S> {
             rays: CachePadded::new(QueuedRay::EMPTY, self.max_depth as usize + 2),
             stack: AnyStack::default(),
             shadow_cache: CachePadded::new(None, scene.lights.len()),
-            counters: Counters::default(),
+            watch: Watch::new(interrupt),
             saturations: 0,
         })
     }
@@ -49,7 +51,7 @@ struct Tracing<'a, S: Quantize> {
     rays: CachePadded<QueuedRay<S>>,
     stack: AnyStack<S::Bound>,
     shadow_cache: CachePadded<Option<ObjectRef>>,
-    counters: Counters,
+    watch: Watch,
     saturations: u64,
 }
 
@@ -60,7 +62,7 @@ impl<'a, S: Quantize> Tracing<'a, S> {
         work: impl FnOnce(
             &Tracer<'_, S, AnyAccelerator<'a, S::Bound>>,
             &mut Workspace<'_, S, AnyStack<S::Bound>>,
-            &mut Counters,
+            &mut Watch,
         ) -> R,
     ) -> R {
         let scene = self.ready.prepared.scene.scene();
@@ -76,7 +78,7 @@ impl<'a, S: Quantize> Tracing<'a, S> {
             shadow_cache: self.shadow_cache.get(),
         };
         let (done, saturations) =
-            saturation::counted(|| work(&tracer, &mut workspace, &mut self.counters));
+            saturation::counted(|| work(&tracer, &mut workspace, &mut self.watch));
         self.saturations += saturations;
         done
     }
@@ -84,8 +86,8 @@ impl<'a, S: Quantize> Tracing<'a, S> {
     /// `put` is called through a pointer, so that there is one copy of all that is inlined here.
     fn render(&mut self, region: &Region, put: &mut dyn FnMut(u32, u32, Vec3<S>)) {
         let frame = &self.ready.prepared.frame;
-        self.with(|tracer, workspace, counters| {
-            frame.render_region(region, tracer, workspace, counters, put);
+        self.with(|tracer, workspace, watch| {
+            frame.render_region(region, tracer, workspace, watch, put);
         });
     }
 }
@@ -131,10 +133,10 @@ impl<S: Quantize> Worker for Tracing<'_, S> {
             let inside = (0..samples).flat_map(move |y| (0..samples).map(move |x| (x, y)));
             inside.map(move |(x, y)| frame.sample_position(column, row, x, y))
         };
-        self.with(|tracer, workspace, counters| {
+        self.with(|tracer, workspace, watch| {
             let hit = |(x, y)| {
                 let ray = frame.camera().row(y).ray(x);
-                let hit = tracer.nearest(&ray, workspace, counters)?;
+                let hit = tracer.nearest(&ray, workspace, watch)?;
                 Some(FirstHit {
                     object: tracer.scene.attributes_of(hit.object).id,
                     distance: hit.t.to_f64() * unit,
@@ -145,7 +147,7 @@ impl<S: Quantize> Worker for Tracing<'_, S> {
     }
 
     fn counters(&self) -> &Counters {
-        &self.counters
+        &self.watch.counters
     }
 
     fn saturations(&self) -> u64 {

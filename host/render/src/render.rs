@@ -68,7 +68,7 @@ pub fn render(scene: &Scene, settings: &RenderSettings) -> Result<Rendering, Err
 ///
 /// # Errors
 /// [`Error::Failed`] if the scene does not fit the arithmetic, the picture does not fit into memory or the system
-/// refuses a thread; [`Error::Interrupted`] if it was.
+/// refuses a thread; [`Error::Interrupted`] if it was; [`Error::TooManyRays`] if it took more than the budget.
 pub fn render_with(
     scene: &Scene,
     settings: &RenderSettings,
@@ -155,7 +155,7 @@ pub fn order(
 ///
 /// # Errors
 /// [`Error::Failed`] if the picture does not fit into memory or the system refuses a thread;
-/// [`Error::Interrupted`] if it was.
+/// [`Error::Interrupted`] if it was; [`Error::TooManyRays`] if it took more than the budget.
 pub fn render_tiles(
     renderer: &dyn Renderer,
     schedule: &Schedule,
@@ -178,7 +178,7 @@ pub fn render_tiles(
             if schedule.pin {
                 threads::pin(thread)?;
             }
-            Ok(renderer.worker())
+            Ok(renderer.worker(interrupt))
         },
         |worker, index| {
             let mut part = TileBuffer::black(parts[index].clone(), holds_intensities);
@@ -200,6 +200,9 @@ pub fn render_tiles(
         messages: None,
         idle: idle(&finished).map(|idle| idle.as_secs_f64()).collect(),
     };
+    // Every ray is off the budget now.
+    drop(finished);
+    interrupt.check()?;
     Ok((assembly.into_picture(), counters, work, saturations))
 }
 

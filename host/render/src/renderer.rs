@@ -6,6 +6,7 @@
 
 pub use crate::build::{PrepareError, prepare};
 
+use crate::interrupt::Interrupt;
 use crate::tile::{Intensity, Level, Tile};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
@@ -18,8 +19,10 @@ pub trait Renderer: Send + Sync {
     /// What there is to know of it.
     fn built(&self) -> &Built;
 
-    /// Somebody who traces parts of the picture, for one thread.
-    fn worker(&self) -> Box<dyn Worker + '_>;
+    /// Somebody who traces parts of the picture, for one thread, until asked to stop: what is traced after that is
+    /// incomplete, so whoever lets it trace [checks](Interrupt::check) afterwards. It looks at the budget of rays only
+    /// now and then, and takes the rest off it when dropped.
+    fn worker(&self, interrupt: &Interrupt) -> Box<dyn Worker + '_>;
 }
 
 /// Traces parts of a picture, one after the other, and counts.

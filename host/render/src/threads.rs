@@ -35,8 +35,8 @@ pub fn idle<S>(finished: &[Finished<S>]) -> impl Iterator<Item = Duration> {
 /// on whichever thread.
 ///
 /// # Errors
-/// [`Error::Interrupted`] if `interrupt` was requested before the last tile was begun, [`Error::Failed`]
-/// when the system gives no more threads, or what `start` fails with; some tiles are then not done.
+/// [`Error::Interrupted`] if `interrupt` was requested before the last tile was done, [`Error::TooManyRays`] if its
+/// budget was spent, [`Error::Failed`] when the system gives no more threads, or what `start` fails with; some tiles are then not done.
 pub fn run_tiles<S: Send>(
     scheduler: &Scheduler,
     interrupt: &Interrupt,
@@ -58,6 +58,7 @@ pub fn run_tiles<S: Send>(
             }
             interrupt.check()?;
             work(&mut state, tile);
+            interrupt.check()?;
             tiles += 1;
             done();
         }

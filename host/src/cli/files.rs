@@ -1,6 +1,9 @@
 //! Checks of the files that arguments name: no result may replace an input or another result.
 
 use octray_render::error::Error;
+use octray_render::output;
+use octray_scenes::input;
+use octray_scenes::name::Shown;
 use std::fs;
 use std::path::{Path, PathBuf, absolute};
 
@@ -21,16 +24,21 @@ pub fn distinct<I: AsRef<Path>, R: AsRef<Path>>(
         .collect();
     let mut before: Vec<(PathBuf, Option<PathBuf>)> = Vec::new();
     for (path, file) in results.into_iter().map(|path| named(path.as_ref())) {
+        if output::is_stdout(&path) && before.iter().any(|other| output::is_stdout(&other.0)) {
+            return Err(Error::Usage(
+                "two results cannot go to standard output: name a file for one of them".into(),
+            ));
+        }
         let same = |other: &&(PathBuf, Option<PathBuf>)| file.is_some() && other.1 == file;
-        let name = path.display();
+        let name = Shown(&path);
         if let Some((input, _)) = inputs.iter().find(same) {
-            let input = input.display();
+            let input = Shown(input);
             return Err(Error::Usage(format!(
                 "the result {name} would replace {input}, which is read: name another file"
             )));
         }
         if let Some((result, _)) = before.iter().find(same) {
-            let result = result.display();
+            let result = Shown(result);
             return Err(Error::Usage(format!(
                 "the results {result} and {name} are one file: name another for one of them"
             )));
@@ -40,9 +48,31 @@ pub fn distinct<I: AsRef<Path>, R: AsRef<Path>>(
     Ok(())
 }
 
+/// Returns the name of a result that nobody has named, after the scene that it is made of.
+///
+/// # Errors
+/// [`Error::Usage`] if the scene comes from where files have no names.
+pub fn named_after(scene: &Path, end: &str) -> Result<PathBuf, Error> {
+    let is_pipe = fs::metadata(scene).is_ok_and(|found| !found.is_file());
+    if input::is_stdin(scene) || is_pipe {
+        return Err(Error::Usage(format!(
+            "'{}' is no file to name the picture after: name it by '-o'",
+            Shown(scene)
+        )));
+    }
+    let mut name = scene.file_stem().unwrap_or_default().to_owned();
+    name.push(end);
+    Ok(name.into())
+}
+
 /// Returns the canonical path of the regular file that `path` is or would become, and `None` if something else exists
-/// there.
+/// there, or `path` is standard input or output.
 fn identity(path: &Path) -> Option<PathBuf> {
+    if output::is_stdout(path) {
+        return None;
+    }
+    let target = output::target_of(path);
+    let path = target.as_deref().unwrap_or(path);
     if let Ok(found) = fs::metadata(path) {
         return (found.is_file()).then(|| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
     }

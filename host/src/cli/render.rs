@@ -120,9 +120,8 @@ impl RenderArgs {
         let output = match self.output {
             Some(output) => output,
             None => {
-                let mut name = self.scene.file_stem().unwrap_or_default().to_owned();
-                name.push(".png");
-                Target::new(name.into()).map_err(Error::Usage)?
+                let name = files::named_after(&self.scene, ".png")?;
+                Target::new(name).map_err(Error::Usage)?
             }
         };
         files::distinct([&self.scene], [&output.path])?;

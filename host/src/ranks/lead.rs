@@ -164,7 +164,7 @@ struct Dispatcher<'a> {
 impl Dispatcher<'_> {
     /// Traces tiles, and answers the other ranks between them, until all have finished. Returns what this rank did.
     fn run(&mut self, renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<RankCounts, Error> {
-        let mut worker = renderer.worker();
+        let mut worker = renderer.worker(interrupt);
         let mut busy = Duration::ZERO;
         loop {
             interrupt.check()?;
@@ -176,6 +176,7 @@ impl Dispatcher<'_> {
                 let begin = Instant::now();
                 let mut part = self.part(assignment.tile);
                 worker.trace(part.tile());
+                interrupt.check()?;
                 busy += begin.elapsed();
                 self.picture.put(&part);
                 self.progress.step();

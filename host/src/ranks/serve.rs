@@ -38,7 +38,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         .map_or(Some(0), |part| buffer(part, rank_job.intensities));
     universe.set_buffer_size(size.ok_or_else(|| failed("a tile is too large".into()))?);
     let leader = world.process_at_rank(0);
-    let mut worker = renderer.worker();
+    let mut worker = renderer.worker(interrupt);
     let mut busy = Duration::ZERO;
     let nothing: [u8; 0] = [];
     for _ in 0..IN_HAND {
@@ -55,6 +55,7 @@ pub(super) fn serve(universe: &mut Universe, interrupt: &Interrupt) -> Result<()
         let part = part.ok_or_else(|| failed(format!("there is no tile {index}")))?;
         let begin = Instant::now();
         let message = trace(&mut *worker, index, part, rank_job.intensities);
+        interrupt.check()?;
         busy += begin.elapsed();
         // An unbuffered send of more than about 256 bytes blocks until the first rank looks for messages.
         leader.buffered_send_with_tag(&message[..], RESULT);

@@ -10,6 +10,7 @@ use clap::Parser;
 use comfy_table::{CellAlignment, Table, presets};
 use octray_prepare::RenderSettings;
 use octray_render::cost::{self, EVENTS, NAMES, WEIGHTS};
+use octray_render::interrupt::Interrupt;
 use octray_render::renderer::{self, Worker};
 use octray_render::tile::Tile;
 use octray_render::tile::{TileBuffer, TileSize};
@@ -63,7 +64,7 @@ fn trace() -> Result<(), Box<dyn Error>> {
         let region = renderer.built().region();
         for strip in TileSize::strip(ROWS).cut(&region) {
             let mut part = TileBuffer::black(strip, false);
-            let mut worker = renderer.worker();
+            let mut worker = renderer.worker(&Interrupt::new());
             trace_a_strip(&mut *worker, part.tile());
             let events = cost::events(worker.counters()).map(|count| count.to_string());
             println!("{name} {}", events.join(" "));

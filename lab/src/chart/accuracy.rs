@@ -2,6 +2,8 @@
 
 use super::ChartJob;
 use super::setting::Setting;
+use crate::budget;
+use octray_core::observe::RayKind;
 use octray_prepare::format::Format;
 use octray_prepare::{Arith, RenderSettings};
 use octray_render::error::Error;
@@ -10,6 +12,7 @@ use octray_render::metric::Difference;
 use octray_render::picture::Picture;
 use octray_render::render::render_tiles;
 use octray_render::renderer::{self, FirstHit, Renderer};
+use octray_render::scene_file;
 use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 
@@ -53,6 +56,7 @@ pub struct Judge<'a> {
     scene: &'a Scene,
     interrupt: &'a Interrupt,
     converged: Picture,
+    unexplored: Option<String>,
     exact: Vec<Exact>,
 }
 
@@ -72,7 +76,8 @@ impl<'a> Judge<'a> {
     /// Renders the converged picture: f64, many rays per pixel, and bounces as long as they change anything.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene does not even fit f64; [`Error::Interrupted`]; [`Error::TooManyRays`] if the
+    /// picture takes too many even without bounces.
     pub fn new(scene: &'a Scene, job: &ChartJob, interrupt: &'a Interrupt) -> Result<Self, Error> {
         let converged = RenderSettings {
             arith: Arith::F64,
@@ -82,17 +87,40 @@ impl<'a> Judge<'a> {
             samples: job.converged_samples,
             ..RenderSettings::DEFAULT
         };
-        let renderer = build(scene, &converged)?;
+        let budget = budget::rays(job.size, job.converged_samples);
+        let (explored, picture) = budget::deepest(CONVERGED_DEPTH, |max_depth| {
+            let renderer = build(
+                scene,
+                &RenderSettings {
+                    max_depth,
+                    ..converged
+                },
+            )?;
+            let interrupt = interrupt.with_budget(budget);
+            let rendered = render_tiles(&*renderer, &Schedule::default(), false, &(), &interrupt)?;
+            let hits = rendered.1.hits[RayKind::Primary as usize];
+            Ok((rendered.0, hits))
+        })?;
+        let (picture, hits) = picture;
+        if hits == 0 && !scene.objects.is_empty() {
+            scene_file::note(scene_file::NOTHING_IN_SIGHT);
+        }
         Ok(Self {
             scene,
             interrupt,
-            converged: render(&*renderer, interrupt)?,
+            converged: picture,
+            unexplored: budget::unexplored(explored, CONVERGED_DEPTH, budget),
             exact: Vec::new(),
         })
     }
 
+    /// The bounces that the converged picture lacks because they take too many rays, in words, if any.
+    pub fn unexplored(&self) -> Option<&str> {
+        self.unexplored.as_deref()
+    }
+
     /// How far off the picture with these settings is; in words if the scene does not fit the arithmetic or
-    /// the tree.
+    /// the tree, or takes too many rays.
     ///
     /// # Errors
     /// [`Error::Interrupted`], or if f64 itself fails.
@@ -104,9 +132,16 @@ impl<'a> Judge<'a> {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,
         };
-        let picture = render(&*renderer, self.interrupt)?;
+        let budget = budget::rays(renderer.built().size, setting.samples);
+        let picture = match render(&*renderer, &self.interrupt.with_budget(2 * budget)) {
+            Err(Error::TooManyRays(rays)) => return Ok(Err(Error::TooManyRays(rays).to_string())),
+            other => other?,
+        };
         let converged = Difference::between(&self.converged, &picture)?;
-        let exact = self.exact(setting.in_f64())?;
+        let exact = match self.exact(setting.in_f64(), budget) {
+            Err(Error::TooManyRays(rays)) => return Ok(Err(Error::TooManyRays(rays).to_string())),
+            other => other?,
+        };
         Ok(Ok(Accuracy {
             format: renderer.built().format,
             same: Difference::between(&exact.picture, &picture)?,
@@ -116,7 +151,7 @@ impl<'a> Judge<'a> {
     }
 
     /// The picture with these settings, rendered if it has not been yet.
-    fn exact(&mut self, setting: RenderSettings) -> Result<&Exact, Error> {
+    fn exact(&mut self, setting: RenderSettings, budget: u64) -> Result<&Exact, Error> {
         let known = self.exact.iter().position(|exact| exact.setting == setting);
         let index = match known {
             Some(index) => index,
@@ -124,7 +159,7 @@ impl<'a> Judge<'a> {
                 let renderer = build(self.scene, &setting)?;
                 self.exact.push(Exact {
                     setting,
-                    picture: render(&*renderer, self.interrupt)?,
+                    picture: render(&*renderer, &self.interrupt.with_budget(budget))?,
                     renderer,
                 });
                 self.exact.len() - 1
@@ -149,7 +184,8 @@ fn render(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Picture, Err
 /// What the rays of two pictures with the same settings meet first.
 fn sight(exact: &dyn Renderer, renderer: &dyn Renderer, samples: u32) -> Sight {
     let built = renderer.built();
-    let (mut truth, mut seen) = (exact.worker(), renderer.worker());
+    let interrupt = Interrupt::new();
+    let (mut truth, mut seen) = (exact.worker(&interrupt), renderer.worker(&interrupt));
     let (mut blocks, mut others, mut depth) = (0_u64, 0_u64, 0.0_f64);
     let per_block = (samples * samples) as usize;
     for row in (0..built.size.1).step_by(built.block as usize) {

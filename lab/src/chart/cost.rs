@@ -9,6 +9,7 @@ use crate::measure::emulate::Emulator;
 use crate::measure::frames::{Bench, NamedScene, SEARCH};
 use crate::measure::job::{FirmwareOptions, Goal, MeasureJob};
 use crate::measure::source_tree::SourceTree;
+use crate::plan::choice::PER_PIXEL;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
 use octray_render::cost;
 use octray_render::counts::thousands;
@@ -178,7 +179,7 @@ impl<'a> Meter<'a> {
                 (CostKind::Board(board), _, Some((workspace, plugin))) => {
                     self.on_board(board, scene, setting, workspace, plugin)?
                 }
-                _ => Ok(events(&scene.scene, setting)?),
+                _ => Ok(events(&scene.scene, setting, self.interrupt)?),
             };
             progress.step();
             Ok(cost)
@@ -201,7 +202,7 @@ impl<'a> Meter<'a> {
         for _ in 0..self.job.rounds.get() {
             for (renderer, times) in engines.iter().zip(&mut times) {
                 self.interrupt.check()?;
-                times.push(time(&**renderer));
+                times.push(time(&**renderer, self.interrupt)?);
             }
         }
         engines.iter().for_each(|_| progress.step());
@@ -256,18 +257,22 @@ impl<'a> Meter<'a> {
     }
 }
 
-fn events(scene: &Scene, setting: &RenderSettings) -> Result<f64, Error> {
+fn events(scene: &Scene, setting: &RenderSettings, interrupt: &Interrupt) -> Result<f64, Error> {
     let renderer = build(scene, setting)?;
-    let mut worker = renderer.worker();
+    let mut worker = renderer.worker(interrupt);
     worker.probe(&renderer.built().active);
-    Ok(cost::cost(worker.counters()))
+    interrupt.check()?;
+    let (width, height) = renderer.built().size;
+    let background = PER_PIXEL * f64::from(width) * f64::from(height);
+    Ok(cost::cost(worker.counters()).max(background))
 }
 
-fn time(renderer: &dyn Renderer) -> f64 {
-    let mut worker = renderer.worker();
+fn time(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<f64, Error> {
+    let mut worker = renderer.worker(interrupt);
     let begin = Instant::now();
     worker.probe(&renderer.built().active);
-    begin.elapsed().as_secs_f64()
+    interrupt.check()?;
+    Ok(begin.elapsed().as_secs_f64())
 }
 
 /// The middle one; the lower of two.

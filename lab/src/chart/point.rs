@@ -102,6 +102,8 @@ pub struct Panel {
     pub points: Vec<Point>,
     /// The settings without a point.
     pub refused: Vec<Refused>,
+    /// The bounces that the converged picture lacks, in words, if any.
+    pub unexplored: Option<String>,
     /// What was chosen.
     pub choices: Vec<Chosen>,
 }
@@ -124,6 +126,7 @@ impl Panel {
             wishes: job.wishes,
             points: Vec::new(),
             refused: Vec::new(),
+            unexplored: None,
             choices: Vec::new(),
         };
         for (setting, outcome) in measured {
@@ -235,6 +238,13 @@ pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%@".contains(c);
     if word.chars().all(plain) && !word.is_empty() {
         word.into()
+    } else if word.chars().any(char::is_control) {
+        let escaped = word.chars().map(|c| match c {
+            '\'' | '\\' => format!("\\{c}"),
+            c if c.is_control() => format!("\\u{:04x}", u32::from(c)),
+            c => c.into(),
+        });
+        format!("$'{}'", escaped.collect::<String>())
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
     }
@@ -338,6 +348,11 @@ pub(super) mod tests {
         assert_eq!(chosen(2), Some("approx1"));
         assert_eq!(panel.points[1].chosen_as, ["fastest ≥ 40 dB", "knee"]);
         assert_eq!(panel.refused[0].label, "i4f28");
+    }
+
+    #[test]
+    fn a_word_with_control_characters_stays_one_word_on_one_line() {
+        assert_eq!(quoted("a'b\n\u{1b}"), r"$'a\'b\u000a\u001b'");
     }
 
     #[test]

@@ -122,6 +122,9 @@ struct Document<'a> {
     against: Against,
     /// What comes before a command to count its cost.
     counting: Option<String>,
+    /// The bounces that the converged picture lacks, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unexplored: Option<&'a str>,
     choices: Vec<Chosen<'a>>,
     points: Vec<Row<'a>>,
 }
@@ -145,6 +148,7 @@ pub fn write_json(panels: &[Panel], out: &mut dyn io::Write) -> io::Result<()> {
             unit: panel.kind.unit(),
             against: panel.wishes.against,
             counting: panel.counting(),
+            unexplored: panel.unexplored.as_deref(),
             choices: (panel.choices.iter())
                 .map(|choice| {
                     let point = choice.point.map(|i| &panel.points[i]);
@@ -185,6 +189,9 @@ pub fn text(panels: &[Panel]) -> String {
         let _ = writeln!(text, "{}: {}", panel.scene, panel.kind.words());
         let _ = writeln!(text, "{}\n", panel.common());
         let _ = writeln!(text, "{}\n", table(panel));
+        if let Some(unexplored) = &panel.unexplored {
+            let _ = writeln!(text, "converged picture: {unexplored}");
+        }
         for refused in &panel.refused {
             let _ = writeln!(text, "no point: {}: {}", refused.label, refused.why);
         }

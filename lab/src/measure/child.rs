@@ -4,7 +4,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use std::fs::File;
 use std::io::{self, Read, Seek};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use wait_timeout::ChildExt;
 
@@ -48,6 +48,9 @@ pub fn run(
     // Files, not pipes: a program stops when a pipe is full.
     let (stdout, stderr) = (tempfile::tempfile(), tempfile::tempfile());
     let (stdout, stderr) = (stdout.map_err(failed)?, stderr.map_err(failed)?);
+    // A group of its own, which ends with it: cargo alone would leave its compilers behind.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut child = (command.stdin(Stdio::null()))
         .stdout(stdout.try_clone().map_err(failed)?)
         .stderr(stderr.try_clone().map_err(failed)?)
@@ -60,9 +63,7 @@ pub fn run(
             break (status.code()).map_or(Ended::Killed, |code| Ended::Exited { code });
         }
         if interrupt.requested() || left.is_zero() {
-            // What cannot be ended has ended already.
-            let _ = child.kill();
-            let _ = child.wait();
+            end(&mut child);
             interrupt.check()?;
             break Ended::Late;
         }
@@ -72,6 +73,19 @@ pub fn run(
         stderr: text(stderr).map_err(failed)?,
     };
     Ok((ended, written))
+}
+
+/// Ends a program and what it has started. What cannot be ended has ended already.
+fn end(child: &mut Child) {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Pid, Signal, kill_process_group};
+        if let Some(group) = Pid::from_raw(child.id() as i32) {
+            let _ = kill_process_group(group, Signal::KILL);
+        }
+    }
+    let _ = child.kill();
+    let _ = child.wait();
 }
 
 /// All that was written into a file.
@@ -130,6 +144,29 @@ mod tests {
             result
         });
         assert!(matches!(result, Err(Error::Interrupted)));
+    }
+
+    #[test]
+    fn what_it_has_started_ends_with_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("id");
+        // The shell waits for a program of its own.
+        let script = format!("sleep 600 & echo $! > {}; wait", file.display());
+        let (ended, _) = shell(&script, Duration::from_millis(300));
+        assert_eq!(ended, Ended::Late);
+        let id = std::fs::read_to_string(file).unwrap();
+        let id = rustix::process::Pid::from_raw(id.trim().parse().unwrap()).unwrap();
+        let begin = Instant::now();
+        while rustix::process::test_kill_process(id).is_ok() && !is_dead(id) {
+            assert!(begin.elapsed() < Duration::from_secs(10), "it still runs");
+            thread::sleep(POLL);
+        }
+    }
+
+    /// Whether a process has ended, but nobody has asked how.
+    fn is_dead(id: rustix::process::Pid) -> bool {
+        let status = std::fs::read_to_string(format!("/proc/{}/stat", id.as_raw_nonzero()));
+        status.is_ok_and(|status| status.contains(") Z "))
     }
 
     #[test]

@@ -87,6 +87,10 @@ fn failure(ended: Ended, text: &str, patience: Duration) -> Option<String> {
         Ended::Exited { code: 103 } => "stack overflow".into(),
         Ended::Exited { code: 104 } => format!("not enough capacity: {}", last_line(text)),
         Ended::Exited { code } => format!("exit code {code}: {}", last_line(text)),
+        // A Cortex-M locks up if it finds no stack for the fault that it is in: the stack has left the memory.
+        Ended::Killed if fatal_line(text).starts_with("Lockup") => {
+            format!("stack overflow: {}", fatal_line(text))
+        }
         Ended::Killed => format!("crashed: {}", fatal_line(text)),
         Ended::Late => format!("no end within {} s", patience.as_secs()),
     })
@@ -142,7 +146,10 @@ mod tests {
         assert_eq!(why(Ended::Late), "no end within 9 s");
         let text = "qemu: fatal: Lockup\nR00=0\n";
         let why = failure(Ended::Killed, text, Duration::ZERO);
-        assert_eq!(why.as_deref(), Some("crashed: Lockup"));
+        assert_eq!(why.as_deref(), Some("stack overflow: Lockup"));
+        let text = "qemu: fatal: Trying to execute code outside RAM\n";
+        let why = failure(Ended::Killed, text, Duration::ZERO).unwrap();
+        assert!(why.starts_with("crashed: Trying"), "{why}");
         let well = Ended::Exited { code: 0 };
         assert_eq!(failure(well, "", Duration::ZERO), None);
     }

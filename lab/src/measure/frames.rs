@@ -13,7 +13,10 @@ use octray_prepare::{Arith, RenderSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
+use octray_render::render::Rendering;
+use octray_render::scene_file;
 use octray_scenes::model::Scene;
+use octray_scenes::name;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -37,11 +40,11 @@ impl NamedScene {
     /// # Errors
     /// If it cannot be read, or has mistakes.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let scene = octray_scenes::read(path)?;
+        let scene = scene_file::read(path)?;
         let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self {
-            name: name.into_owned(),
+            name: name::line(&name),
             path: path.clone(),
             scene,
         })
@@ -89,10 +92,12 @@ impl Bench<'_> {
     pub fn frames(&self, scenes: &[NamedScene], job: &MeasureJob) -> Result<Vec<FrameRow>, Error> {
         let mut rows = Vec::new();
         for scene in scenes {
-            let exact = reference::render(&scene.scene, Arith::F64, &job.settings, self.interrupt)?;
+            let exact = self.exact(scene, &job.settings)?;
             for &arith in &job.ariths {
-                let reference =
-                    Reference::render(&scene.scene, arith, &job.settings, &exact, self.interrupt);
+                let exact = exact.as_ref().map_err(|rays| Error::TooManyRays(*rays));
+                let reference = exact.and_then(|exact| {
+                    Reference::render(&scene.scene, arith, &job.settings, exact, self.interrupt)
+                });
                 for &board in &job.boards {
                     let mut row = row(scene, arith, board, job);
                     let measured = match &reference {
@@ -113,6 +118,18 @@ impl Bench<'_> {
             }
         }
         Ok(rows)
+    }
+
+    /// Renders in 64-bit floats; says why not if that takes too many rays.
+    fn exact(
+        &self,
+        scene: &NamedScene,
+        settings: &RenderSettings,
+    ) -> Result<Result<Rendering, u64>, Error> {
+        match reference::render(&scene.scene, Arith::F64, settings, self.interrupt) {
+            Err(Error::TooManyRays(rays)) => Ok(Err(rays)),
+            other => other.map(Ok),
+        }
     }
 
     /// Measures one combination: its cost and its functions, or why there is none.

@@ -139,7 +139,8 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
         rows,
     };
     report.write(&COLUMNS, job, interrupt)?;
-    output::write_stdout(interrupt, |out| {
+    let results = job.json.iter().chain(&job.csv);
+    output::write_report(results, interrupt, |out| {
         out.write_all(text(&report.rows).as_bytes())
     })?;
     super::all_done(failures(&report.rows).len())

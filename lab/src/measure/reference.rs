@@ -1,6 +1,7 @@
 //! Renders the same picture on the host: the firmware's must equal it, it gives the number of rays, and its distance
 //! from the picture in 64-bit floats is measured.
 
+use crate::budget;
 use octray_prepare::{Arith, RenderSettings, TreeSettings};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -37,10 +38,11 @@ impl Reference {
     }
 }
 
-/// Renders with the settings, but in this arithmetic and with the default tree, on one thread.
+/// Renders with the settings, but in this arithmetic and with the default tree, on one thread, if the picture does not
+/// take too many rays.
 ///
 /// # Errors
-/// As [`render_with`].
+/// As [`render_with`]; [`Error::TooManyRays`] among them.
 pub fn render(
     scene: &Scene,
     arith: Arith,
@@ -56,5 +58,7 @@ pub fn render(
         threads: NonZeroUsize::MIN,
         ..Schedule::default()
     };
-    render_with(scene, &settings, &work, false, &(), interrupt)
+    let budget = budget::rays(settings.size_of(scene), settings.samples);
+    let interrupt = interrupt.with_budget(budget);
+    render_with(scene, &settings, &work, false, &(), &interrupt)
 }

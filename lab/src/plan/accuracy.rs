@@ -3,6 +3,7 @@
 
 use super::events::{Events, Probe};
 use super::job::Numbers;
+use crate::budget;
 use octray_core::accel::{self, COMPACT_MAX_DEPTH};
 use octray_prepare::format::{Family, Format};
 use octray_prepare::plan::{Plan, fingerprint};
@@ -44,10 +45,12 @@ pub struct Scope<'a> {
 /// The requirements of the picture.
 #[derive(Clone, Debug)]
 pub struct Accuracy {
-    /// The picture in 64-bit floats with the largest number of bounces.
+    /// The picture in 64-bit floats with the largest number of bounces that was explored.
     pub exact: Picture,
     /// The fewest bounces that give the exact picture.
     pub depth: u32,
+    /// The bounces that were not explored, in words, if any: with them the picture takes too many rays.
+    pub unexplored: Option<String>,
     /// The events with these bounces, in 64-bit floats.
     pub full: Events,
     /// The events with one bounce less, and the distance in dB; `None` without bounces.
@@ -87,12 +90,14 @@ impl Scope<'_> {
     /// Finds what the picture needs, considering only some arithmetics.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene is too large for a compact BVH; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene is too large for a compact BVH; [`Error::Interrupted`]; [`Error::TooManyRays`] if
+    /// the picture takes too many even without bounces.
     pub fn accuracy(&self, numbers: Numbers) -> Result<Accuracy, Error> {
-        let exact = self
-            .render(&self.plan(Format::F64, PixelsPerRay::One, RenderSettings::DEEPEST))?
-            .picture;
-        let depth = self.depth(&exact)?;
+        let (explored, exact) = budget::deepest(RenderSettings::DEEPEST, |depth| {
+            let plan = self.plan(Format::F64, PixelsPerRay::One, depth);
+            Ok(self.render(&plan)?.picture)
+        })?;
+        let depth = self.depth(&exact, explored)?;
         let full = self
             .render(&self.plan(Format::F64, PixelsPerRay::One, depth))?
             .events;
@@ -115,6 +120,7 @@ impl Scope<'_> {
         let mut accuracy = Accuracy {
             exact,
             depth,
+            unexplored: budget::unexplored(explored, RenderSettings::DEEPEST, self.budget()),
             full,
             shallower,
             coarse: (coarse.events, coarse_psnr),
@@ -156,18 +162,28 @@ impl Scope<'_> {
     /// # Errors
     /// Those of [`Probe::render`].
     pub fn render(&self, plan: &Plan) -> Result<Probe, Error> {
-        Probe::render(self.scene, plan, self.interrupt)
+        // Another arithmetic than f64 may find some more rays.
+        let rays = match plan.format {
+            Format::F64 => self.budget(),
+            _ => 2 * self.budget(),
+        };
+        Probe::render(self.scene, plan, &self.interrupt.with_budget(rays))
     }
 
-    /// Returns the fewest bounces that give the exact picture.
-    fn depth(&self, exact: &Picture) -> Result<u32, Error> {
+    /// Returns the most rays of a picture.
+    fn budget(&self) -> u64 {
+        budget::rays(self.size, 1)
+    }
+
+    /// Returns the fewest bounces that give the exact picture, which has no more than `explored`.
+    fn depth(&self, exact: &Picture, explored: u32) -> Result<u32, Error> {
         let is_exact = |depth| -> Result<bool, Error> {
             let probe = self.render(&self.plan(Format::F64, PixelsPerRay::One, depth))?;
             Ok(Difference::between(exact, &probe.picture)?.is_zero())
         };
         // A surface that transmits more light than it receives subtracts light of its own.
         if (self.scene.surfaces.iter()).any(|surface| surface.refract > 1.0) {
-            let mut depth = RenderSettings::DEEPEST;
+            let mut depth = explored;
             while depth > 0 && is_exact(depth - 1)? {
                 depth -= 1;
             }
@@ -175,7 +191,7 @@ impl Scope<'_> {
         }
         // Otherwise more bounces only add light, so no level decreases, and a picture that equals the exact one stays
         // equal with more bounces.
-        let (mut low, mut high) = (0, RenderSettings::DEEPEST);
+        let (mut low, mut high) = (0, explored);
         // Few scenes need many bounces: the steps grow before they shrink.
         let mut step = 1;
         while low < high {
@@ -193,13 +209,19 @@ impl Scope<'_> {
         accuracy.tried.clear();
         accuracy.refused = None;
         if numbers != Numbers::Fixed {
-            accuracy.tried.push(self.attempt(accuracy, Format::F32)?);
+            match self.attempt(accuracy, Format::F32) {
+                Err(Error::TooManyRays(rays)) => {
+                    accuracy.refused = Some(too_many(Format::F32, rays));
+                }
+                tried => accuracy.tried.push(tried?),
+            }
         }
         let fixed = fixed_point().rev().filter(|_| numbers != Numbers::F32);
         for format in fixed {
             match self.attempt(accuracy, format) {
                 // A value that overflows this format may fit the next.
                 Err(Error::Failed(why)) => accuracy.refused = Some(why),
+                Err(Error::TooManyRays(rays)) => accuracy.refused = Some(too_many(format, rays)),
                 tried => {
                     let tried = tried?;
                     let does = tried.does;
@@ -246,6 +268,11 @@ impl Accuracy {
             resolves[0].cmp(&resolves[1]).then(further)
         })
     }
+}
+
+/// Says why a format is not taken in which rays multiply that do not in others.
+fn too_many(format: Format, rays: u64) -> String {
+    format!("in {format}, {}", Error::TooManyRays(rays))
 }
 
 /// Returns the fewest bits before the point with which a format holds a number.
@@ -310,6 +337,6 @@ mod tests {
             [0, 1, 2].map(|depth| picture(depth) == exact),
             [true, false, true]
         );
-        assert_eq!(scope.depth(&exact).unwrap(), 2);
+        assert_eq!(scope.depth(&exact, RenderSettings::DEEPEST).unwrap(), 2);
     }
 }

@@ -14,6 +14,9 @@ use octray_render::error::Error;
 /// Up to this many objects, plans without a tree are tried.
 const FEW: usize = 64;
 
+/// Instructions for each pixel, measured where no ray is traced; otherwise they are not worth counting.
+pub const PER_PIXEL: f64 = 3.0;
+
 /// The leaf sizes to try.
 const LEAVES: [u32; 5] = [1, 2, 3, 4, 8];
 
@@ -128,8 +131,11 @@ impl Chooser<'_> {
         let baked = bake(scene, &options).map_err(|why| failed(why.to_string()))?;
         let lent = LentBytes::of(&plan, &baked, scene.lights.len());
         let weights = self.weights(plan.format)?;
+        let mut cost = weights.predict(&probe.events, &baked, plan.tree, lent);
+        let pixels = f64::from(plan.size.0) * f64::from(plan.size.1);
+        cost.instructions = cost.instructions.max(PER_PIXEL * pixels);
         Ok(Candidate {
-            cost: weights.predict(&probe.events, &baked, plan.tree, lent),
+            cost,
             events: probe.events,
             nodes: probe.nodes,
             scale: probe.scale,

@@ -105,6 +105,11 @@ impl Events {
         }
     }
 
+    /// Returns the hits of all rays that look for the closest one.
+    pub fn hits(&self) -> f64 {
+        self.rest[2]
+    }
+
     /// Returns steps and tests per ray.
     pub fn per_ray(&self) -> [f64; 2] {
         let [closest, shadow] = &self.search;
@@ -141,7 +146,8 @@ impl Probe {
     /// Traces a plan in its own arithmetic and with its own tree, on all cores.
     ///
     /// # Errors
-    /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`].
+    /// [`Error::Failed`] if the scene does not fit the format or the tree; [`Error::Interrupted`];
+    /// [`Error::TooManyRays`] if it takes more than the budget of `interrupt`.
     pub fn render(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Self, Error> {
         let renderer = renderer::prepare(scene, &plan.settings())?;
         Self::trace(&*renderer, scene, interrupt)

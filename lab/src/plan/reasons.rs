@@ -14,7 +14,12 @@ pub(super) fn bounces(accuracy: &Accuracy, less: impl Fn(&Events) -> Option<f64>
     Decision {
         about: "bounces",
         chosen: accuracy.depth.to_string(),
-        why: "with more, no pixel changes by one level".into(),
+        why: match &accuracy.unexplored {
+            None => "with more, no pixel changes by one level".into(),
+            Some(unexplored) => {
+                format!("the fewest with the deepest picture explored; {unexplored}")
+            }
+        },
         cheaper: (accuracy.shallower.as_ref()).map(|(events, psnr)| Cheaper {
             choice: (accuracy.depth - 1).to_string(),
             psnr: Some(*psnr),

@@ -10,6 +10,7 @@ use super::verify::Verification;
 use octray_prepare::plan::Plan;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
+use octray_scenes::name;
 use serde::Serialize;
 
 /// The contents of the output.
@@ -29,6 +30,8 @@ pub struct PlanReport {
     pub cost: Option<Cost>,
     /// The measurement, if there was one.
     pub trial: Option<Verification>,
+    /// The bounces that were not explored, in words, if any.
+    pub unexplored: Option<String>,
     /// Which limits fail, by how much, and with which options the plan fits.
     pub failures: Vec<String>,
     /// The plan.
@@ -46,6 +49,7 @@ impl PlanReport {
             tried: accuracy.tried.clone(),
             cost: None,
             trial: None,
+            unexplored: accuracy.unexplored.clone(),
             failures: Vec::new(),
             plan: None,
         }
@@ -91,8 +95,8 @@ impl PlanReport {
         let weights = chooser.weights(chosen.plan.format)?;
         let tried = |format| accuracy.tried.iter().find(|tried| tried.format == format);
         let instructions = |events: &Events| weights.instructions(events).iter().sum::<f64>();
-        let less =
-            |events: &Events| Some(instructions(events) / instructions(&accuracy.full) - 1.0);
+        let full = instructions(&accuracy.full);
+        let less = |events: &Events| (full > 0.0).then(|| instructions(events) / full - 1.0);
         let decisions = vec![
             bounces(accuracy, less),
             pixels_per_ray(accuracy, less),
@@ -120,7 +124,7 @@ impl PlanReport {
     /// Returns the plan as `octray bake --plan` reads it.
     pub fn emitted(&self) -> Option<String> {
         let plan = self.plan.as_ref()?;
-        let (scene, board) = (&self.scene, self.board);
+        let (scene, board) = (name::line(&self.scene), self.board);
         Some(format!("# octray plan {scene} --target {board}\n{plan}"))
     }
 
@@ -131,7 +135,7 @@ impl PlanReport {
             ram,
             min_psnr,
         } = self.bounds;
-        let mut text = line("scene", &self.scene);
+        let mut text = line("scene", &name::line(&self.scene));
         let (flash, ram) = (thousands(flash), thousands(ram));
         let bounds = format!("{flash} bytes of flash, {ram} of RAM, at least {min_psnr} dB");
         text += &line("bounds", &format!("{}: {bounds}", self.board));

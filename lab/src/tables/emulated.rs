@@ -3,10 +3,11 @@
 use super::number::TableNumber;
 use super::record::{self, RecordRow};
 use super::table::{Base, Draft, Quantity};
+use super::thesis::MOST_CSV;
 use crate::measure::ratio::{CORES, geometric_mean};
 use octray_prepare::Arith;
 use octray_render::error::Error;
-use std::fs;
+use octray_scenes::{input, name::Shown};
 use std::path::Path;
 
 /// Makes the table from a record, or from the newest that comes with octray.
@@ -17,8 +18,9 @@ pub fn three(path: Option<&Path>) -> Result<Draft, Error> {
     match path {
         None => of(record::NEWEST, record::NAME),
         Some(path) => {
-            let text = fs::read_to_string(path).map_err(|source| Error::read(path, source))?;
-            of(&text, &path.display().to_string())
+            let text =
+                input::read_text(path, MOST_CSV).map_err(|source| Error::read(path, source))?;
+            of(&text, &Shown(path).to_string())
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::number::TableNumber;
 use octray_render::error::Error;
+use octray_scenes::{input, name::Shown};
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::path::Path;
 
 /// The numbers that come with octray; the file's header describes the columns.
@@ -46,6 +46,9 @@ pub struct Place<'a> {
     pub quantity: &'a str,
 }
 
+/// The most bytes of a file of figures.
+pub(super) const MOST_CSV: u64 = 1 << 26;
+
 /// All known numbers of the thesis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Thesis(Vec<Datum>);
@@ -59,8 +62,8 @@ impl Thesis {
         let Some(path) = path else {
             return Self::parse(KNOWN, "thesis.csv");
         };
-        let text = fs::read_to_string(path).map_err(|source| Error::read(path, source))?;
-        Self::parse(&text, &path.display().to_string())
+        let text = input::read_text(path, MOST_CSV).map_err(|source| Error::read(path, source))?;
+        Self::parse(&text, &Shown(path).to_string())
     }
 
     /// Those of a text, which is called `name` where it is not of the form.

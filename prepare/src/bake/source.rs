@@ -161,6 +161,7 @@ impl<S: Literal> Display for Tables<'_, S> {
 impl<S: Literal> Tables<'_, S> {
     fn head(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let BakeOptions { name, settings, .. } = self.options;
+        let title = octray_scenes::name::line(name);
         let raw = S::RAW;
         let params = self.prepared.frame.params();
         let tree = match self.tree {
@@ -187,7 +188,7 @@ impl<S: Literal> Tables<'_, S> {
         };
         writeln!(
             f,
-            "// {name}, baked by octray in {} at {} x {}.\n\
+            "// {title}, baked by octray in {} at {} x {}.\n\
              use octray_core::{{accel, camera, features, frame, object, scalar, scene, shape, vec3}};\n\n\
              /// The arithmetic.\npub type S = {};\n/// The kind of tree.\npub type Tree = {tree};\n\
              /// The features that the scene uses.\npub const FEATURES: features::FeatureSet = {needed};\n\

@@ -189,12 +189,25 @@ impl<S: Quantize> Quantised<S> {
                 bands.count /= 2;
                 continue;
             }
-            for band in 0..bands.count {
-                self.bands.push(self.edges.len() as u32);
-                let here = edges.iter().filter(|edge| passed(edge).contains(&band));
-                self.edges.extend(here);
+            // Where each band's edges begin; then they are put there, in the order of the outline.
+            let mut places = vec![0; bands.count as usize];
+            for band in edges.iter().flat_map(passed) {
+                places[band as usize] += 1;
             }
-            self.bands.push(self.edges.len() as u32);
+            let mut next = self.edges.len();
+            for place in &mut places {
+                self.bands.push(next as u32);
+                next += std::mem::replace(place, next);
+            }
+            self.bands.push(next as u32);
+            self.edges.resize(next, Default::default());
+            for edge in &edges {
+                for band in passed(edge) {
+                    let place = &mut places[band as usize];
+                    self.edges[*place] = *edge;
+                    *place += 1;
+                }
+            }
             return bands;
         }
     }

@@ -8,7 +8,8 @@
 //! Files often hold six significant digits. This rounding moves a coordinate by up to 5e-6 of its value and a vertex
 //! off the plane by up to √3 times that; 8δ is then 7e-5 of the largest coordinate. Therefore the tolerance is **1e-4
 //! of the largest absolute coordinate, but no less than 1e-4 and no more than 1e-2 of the polygon's size**, where the
-//! size is the distance from *o* to *a*.
+//! size is the distance from *o* to *a*. Beyond that, up to **1e-3 of its size** (three decimals), the polygon is
+//! accepted as odd: it is drawn flat, and may not quite meet its neighbours.
 
 use super::Fault;
 use crate::model::Point;
@@ -17,14 +18,20 @@ use crate::point::{cross, dot};
 /// A polygon counts as a line if its height is at most this fraction of its longest side.
 const THINNEST: f64 = 1e-9;
 
-/// Checks three or more finite vertices: none repeated in a row, not all on a line, all in a plane. Works for
-/// coordinates of any magnitude.
-pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
-    let before = vertices.iter().cycle().skip(vertices.len() - 1);
-    if let Some(vertex) = vertices.iter().zip(before).position(|(a, b)| a == b) {
-        return Err(Fault::RepeatedVertex { vertex });
-    }
+/// A polygon may be off its plane by this fraction of its size, with a warning.
+const UNEVEN: f64 = 1e-3;
 
+/// What is odd about a polygon that can be rendered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Oddity {
+    /// A vertex equal to the one before it, 0 if the last one equals the first.
+    RepeatedVertex { vertex: usize },
+    /// A vertex at some distance, in scene units, from the plane of the others.
+    Uneven { vertex: usize, distance: f64 },
+}
+
+/// Checks three or more finite vertices: not all on a line, all in a plane. Works for coordinates of any magnitude.
+pub(super) fn polygon(vertices: &[Point]) -> Result<Option<Oddity>, Fault> {
     let unit = largest(
         &mut vertices
             .iter()
@@ -57,16 +64,23 @@ pub(super) fn polygon(vertices: &[Point]) -> Result<(), Fault> {
                 (0, 0.0),
                 |worst, this| if this.1 > worst.1 { this } else { worst },
             );
-    let tolerance = (1e-4 * coordinate).clamp(1e-4 * size, 1e-2 * size);
-    if distance > tolerance {
-        let (distance, tolerance) = (2.0 * distance * unit, 2.0 * tolerance * unit);
+    let usual = (1e-4 * coordinate).clamp(1e-4 * size, 1e-2 * size);
+    let most = usual.max(UNEVEN * size);
+    let told = |length: f64| 2.0 * length * unit;
+    if distance > most {
         return Err(Fault::NotPlanar {
             vertex,
-            distance,
-            tolerance,
+            distance: told(distance),
+            tolerance: told(most),
         });
     }
-    Ok(())
+    if distance > usual {
+        let distance = told(distance);
+        return Ok(Some(Oddity::Uneven { vertex, distance }));
+    }
+    let before = vertices.iter().cycle().skip(vertices.len() - 1);
+    let repeated = vertices.iter().zip(before).position(|(a, b)| a == b);
+    Ok(repeated.map(|vertex| Oddity::RepeatedVertex { vertex }))
 }
 
 /// Returns half of `a − b`, which cannot overflow.
@@ -131,7 +145,7 @@ mod tests {
     #[test]
     fn bow_ties_and_bridged_holes_are_polygons() {
         let [a, b, c, d] = SQUARE;
-        assert_eq!(polygon(&[a, c, b, d]), Ok(()));
+        assert_eq!(polygon(&[a, c, b, d]), Ok(None));
         // A hole, joined by an edge that is traversed twice.
         let hole = [
             [0.2, 0.2, 0.0],
@@ -139,14 +153,14 @@ mod tests {
             [0.6, 0.2, 0.0],
             [0.2, 0.2, 0.0],
         ];
-        assert_eq!(polygon(&[&[a, b, c, d, a], &hole[..]].concat()), Ok(()));
+        assert_eq!(polygon(&[&[a, b, c, d, a], &hole[..]].concat()), Ok(None));
     }
 
     #[test]
     fn thin_is_not_collinear() {
         assert_eq!(
             polygon(&[[0.0; 3], [1.0, 0.0, 0.0], [0.5, 1e-6, 0.0]]),
-            Ok(())
+            Ok(None)
         );
         let line = [
             [1.1, 2.2, 3.3],
@@ -161,7 +175,7 @@ mod tests {
     fn size_and_place_do_not_matter() {
         for scale in [1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e307] {
             let scaled = SQUARE.map(|vertex| vertex.map(|number| (number - 0.5) * scale));
-            assert_eq!(polygon(&scaled), Ok(()), "{scale}");
+            assert_eq!(polygon(&scaled), Ok(None), "{scale}");
             let mut bent = scaled;
             bent[2][2] += 0.02 * scale;
             assert!(
@@ -173,7 +187,7 @@ mod tests {
         }
         for far in [1e3, 1e6, 1e12] {
             let mut moved = SQUARE.map(|vertex| vertex.map(|number| number + far));
-            assert_eq!(polygon(&moved), Ok(()), "{far}");
+            assert_eq!(polygon(&moved), Ok(None), "{far}");
             moved[2][2] += 0.25;
             assert!(
                 matches!(polygon(&moved), Err(Fault::NotPlanar { .. })),
@@ -192,11 +206,33 @@ mod tests {
             corner(1.0, 1.0),
             corner(-1.0, 1.0),
         ];
-        assert_eq!(polygon(&vertices), Ok(()));
+        assert_eq!(polygon(&vertices), Ok(None));
         assert_eq!(
             unit([huge, huge, 0.0]).map(|u| u[0] == u[1] && length(u) < 1.01),
             Some(true)
         );
+    }
+
+    #[test]
+    fn three_decimals_are_odd_and_more_is_no_plane() {
+        let [a, b, c, d] = SQUARE;
+        let bent = |by: f64| polygon(&[a, b, [c[0], c[1], by], d]);
+        assert_eq!(bent(1e-4), Ok(None));
+        let Ok(Some(Oddity::Uneven { distance, .. })) = bent(0.001) else {
+            panic!("{:?}", bent(0.001));
+        };
+        assert!((0.0005..0.0011).contains(&distance), "{distance}");
+        assert!(matches!(bent(0.004), Err(Fault::NotPlanar { .. })));
+    }
+
+    #[test]
+    fn a_repeated_vertex_is_odd_unless_nothing_is_left() {
+        let [a, b, c, d] = SQUARE;
+        let repeated = |vertex| Ok(Some(Oddity::RepeatedVertex { vertex }));
+        assert_eq!(polygon(&[a, b, b, c]), repeated(2));
+        assert_eq!(polygon(&[a, b, d, a]), repeated(0));
+        assert_eq!(polygon(&[a, b, b]), Err(Fault::Collinear));
+        assert_eq!(polygon(&[a, a, a, a]), Err(Fault::Collinear));
     }
 
     proptest! {

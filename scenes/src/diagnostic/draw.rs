@@ -1,6 +1,7 @@
 //! Draws mistakes beside their lines.
 
-use super::{Diagnostic, Diagnostics, MOST, MistakeKind, words};
+use super::{Diagnostic, Diagnostics, MOST, MistakeKind, Warnings, words};
+use crate::name::escaped;
 use crate::word::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 
@@ -24,6 +25,30 @@ pub(super) fn draw(diagnostics: &Diagnostics, path: &str, source: &str) -> Strin
     drawn.join("\n\n")
 }
 
+pub(super) fn warnings(warnings: &Warnings, path: &str, source: &str) -> String {
+    let path = escaped(path);
+    let renderer = Renderer::plain();
+    let list = warnings.list.iter();
+    let mut drawn: Vec<String> = list
+        .map(|warning| {
+            let excerpt = Excerpt::new(source, warning.span);
+            let (title, label) = words::warn(&warning.kind);
+            let place = format!("{path}:{}:{}: warning", excerpt.line, excerpt.column);
+            let group = Level::WARNING
+                .with_name(place)
+                .primary_title(title)
+                .element(excerpt.snippet(AnnotationKind::Primary, label));
+            renderer.render(&[group])
+        })
+        .collect();
+    match warnings.more {
+        0 => {}
+        1 => drawn.push(format!("{path}: 1 more warning")),
+        more => drawn.push(format!("{path}: {more} more warnings")),
+    }
+    drawn.join("\n\n")
+}
+
 fn group(mistake: &Diagnostic, path: &str, source: &str) -> Group<'static> {
     let excerpt = Excerpt::new(source, mistake.span);
     let (title, label) = words::describe(&mistake.kind, &excerpt.inside);
@@ -36,6 +61,18 @@ fn group(mistake: &Diagnostic, path: &str, source: &str) -> Group<'static> {
         MistakeKind::Duplicate { first, .. } => {
             let label = "the first one".to_owned();
             group.element(Excerpt::new(source, *first).snippet(AnnotationKind::Context, label))
+        }
+        MistakeKind::Count {
+            begins, keyword, ..
+        } => {
+            let begins = Excerpt::new(source, *begins);
+            match begins.line == excerpt.line {
+                true => group,
+                false => {
+                    let label = format!("the `{}` that the numbers follow", keyword.text());
+                    group.element(begins.snippet(AnnotationKind::Context, label))
+                }
+            }
         }
         _ => group,
     }
@@ -89,24 +126,6 @@ fn shortened(text: &str, most: usize) -> String {
         Some((end, _)) => format!("{}...", escaped(&text[..end])),
         None => escaped(text),
     }
-}
-
-/// Returns `text` without white space other than blanks. Control characters and those that change the order of text are
-/// escaped as in Rust.
-fn escaped(text: &str) -> String {
-    let hostile = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
-    };
-    text.chars()
-        .fold(String::with_capacity(text.len()), |mut escaped, c| {
-            match c {
-                '\t' | '\r' | '\u{b}' | '\u{c}' => escaped.push(' '),
-                c if hostile(c) => escaped.extend(c.escape_default()),
-                c => escaped.push(c),
-            }
-            escaped
-        })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The texts of error messages: a title, and a label for the place.
 
-use super::MistakeKind;
+use super::{MistakeKind, WarningKind};
 use crate::check::Fault;
 use crate::word::Keyword;
 
@@ -26,13 +26,35 @@ pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
         ),
         MistakeKind::NotANumber => (
             format!("`{found}` is not a number"),
-            "expected a number or a keyword".to_owned(),
+            match found.contains('#') {
+                true => "expected a number, and white space before a comment".to_owned(),
+                false => "expected a number or a keyword".to_owned(),
+            },
         ),
         MistakeKind::NotFinite => (
             format!("`{found}` is not finite"),
             "expected a number of at most 1.797e308 in size".to_owned(),
         ),
-        MistakeKind::Count { keyword, found } => (
+        MistakeKind::MixedDialects { keyword } => match keyword {
+            Keyword::Resolution => owned(
+                "`resolution` outside the `v` of an NFF file",
+                "expected it after `hither` of `v from ...`, width first: here it may mean either order",
+            ),
+            _ => owned(
+                "`f` of the thesis in an NFF file",
+                "expected 8 numbers (r g b Kd Ks shine T ior), as `v` has no numbers of its own: a file has one dialect",
+            ),
+        },
+        MistakeKind::Texture => (
+            format!("`{found}` belongs to textures"),
+            "expected no textures: octray draws none; remove them and what belongs to them"
+                .to_owned(),
+        ),
+        MistakeKind::Sense8 => owned(
+            "this is Sense8's Neutral File Format, not Haines's",
+            "expected a viewpoint: only the name NFF is the same; convert the file",
+        ),
+        MistakeKind::Count { keyword, found, .. } => (
             format!("`{}` with {}", keyword.text(), numbers(*found)),
             format!("expected {}", keyword.wants()),
         ),
@@ -94,6 +116,39 @@ pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
     }
 }
 
+/// Returns title and label of a warning.
+pub(super) fn warn(kind: &WarningKind) -> (String, String) {
+    match kind {
+        WarningKind::NoArea { keyword } => {
+            let what = match keyword {
+                Keyword::Patch => "patch",
+                _ => "polygon",
+            };
+            (
+                format!("{what} without area"),
+                "left out: its vertices lie on one line".to_owned(),
+            )
+        }
+        WarningKind::RepeatedVertex { first } => (
+            "vertex repeated".to_owned(),
+            match first {
+                true => {
+                    "same as the last vertex, which needs no repeating: the polygon closes itself"
+                }
+                false => "same as the vertex before it",
+            }
+            .to_owned(),
+        ),
+        WarningKind::Uneven { distance } => (
+            "polygon that is not quite planar".to_owned(),
+            format!(
+                "{} off the plane of the other vertices; the polygon is drawn flat",
+                rounded(*distance)
+            ),
+        ),
+    }
+}
+
 /// Returns a label that states what was expected instead of `fault`.
 fn expected(fault: &Fault, found: &str) -> String {
     let wanted = match fault {
@@ -106,13 +161,6 @@ fn expected(fault: &Fault, found: &str) -> String {
         Fault::TooFewVertices => "at least 3 vertices",
         Fault::VertexRange => "vertices that are in the scene",
         Fault::TooLarge => return format!("expected at most {} in a file", u32::MAX),
-        Fault::RepeatedVertex { vertex: 0 } => {
-            return "same as the last vertex, which needs no repeating: the polygon closes itself"
-                .to_owned();
-        }
-        Fault::RepeatedVertex { .. } => {
-            return "same as the vertex before it; expected another place".to_owned();
-        }
         Fault::Collinear => return "expected vertices that span a plane".to_owned(),
         Fault::NotPlanar {
             distance,
@@ -120,7 +168,7 @@ fn expected(fault: &Fault, found: &str) -> String {
             ..
         } => {
             return format!(
-                "{} off the plane of the other vertices, expected no more than {}",
+                "{} off the plane of the other vertices, expected no more than {}: split it into triangles",
                 rounded(*distance),
                 rounded(*tolerance)
             );

@@ -2,8 +2,8 @@
 
 use super::entity::Entity;
 use super::header::Header;
-use crate::check::{self, Fault};
-use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
+use crate::check::{self, Fault, Oddity};
+use crate::diagnostic::{Diagnostic, MistakeKind, Sink, WarningKind};
 use crate::model::{Light, Object, Point, Scene, Shape, Surface};
 use crate::word::{Keyword, Span};
 
@@ -36,7 +36,7 @@ impl Builder {
             self.surfaces.push(Surface::default()); // Report it once.
         }
         if entity.valid {
-            match self.place(entity, numbers) {
+            match self.place(entity, numbers, mistakes) {
                 Ok(()) => return,
                 Err(Diagnostic { kind, span }) => mistakes.push(kind, span),
             }
@@ -69,15 +69,24 @@ impl Builder {
         scene
     }
 
-    fn place(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
+    fn place(
+        &mut self,
+        entity: &Entity<'_>,
+        numbers: &[f64],
+        mistakes: &mut Sink,
+    ) -> Result<(), Diagnostic> {
         let shape = match entity.keyword {
             Keyword::Light => return self.light(entity, numbers),
             Keyword::Surface => return self.surface(entity, numbers),
             Keyword::Sphere => sphere(entity, numbers)?,
             Keyword::Cone => cone(entity, numbers)?,
             Keyword::Cuboid => cuboid(entity, numbers)?,
-            Keyword::Polygon => self.polygon(entity, numbers)?,
-            Keyword::Patch => self.patch(entity, numbers)?,
+            Keyword::Polygon | Keyword::Patch => {
+                match self.polygon_or_patch(entity, numbers, mistakes)? {
+                    Some(shape) => shape,
+                    None => return Ok(()),
+                }
+            }
             _ => return self.header.place(entity, numbers),
         };
         let surface = self.surfaces.len() - 1;
@@ -94,7 +103,7 @@ impl Builder {
             }
             [x, y, z, brightness] => ([x, y, z], [brightness; 3]),
             [x, y, z, r, g, b] => ([x, y, z], [r, g, b]),
-            _ => return Err(entity.count(numbers)),
+            _ => return Err(entity.count(numbers, &[3, 4, 6])),
         };
         entity.not_negative(3, &numbers[3..])?;
         self.lights.push(Light { position, colour });
@@ -138,9 +147,10 @@ impl Builder {
                     refract,
                     ior: 1.0,
                 };
+                self.header.pass_surface_of_thesis(entity.span);
                 (surface, rest.first().map(|&ior| (12, ior)))
             }
-            _ => return Err(entity.count(numbers)),
+            _ => return Err(entity.count(numbers, &[8, 12, 13])),
         };
         let coefficients = ior.map_or(numbers.len(), |(index, _)| index);
         entity.not_negative(0, &numbers[..coefficients])?;
@@ -154,29 +164,71 @@ impl Builder {
         Ok(())
     }
 
-    fn polygon(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
-        let (count, coordinates) = announced(entity, numbers, 3)?;
-        let (points, _) = coordinates.as_chunks::<3>();
-        check::polygon(points).map_err(|fault| vertex_fault(entity, 3, fault))?;
-        let first = append(&mut self.vertices, points.iter().copied(), entity)?;
-        Ok(Shape::Polygon { first, count })
-    }
-
-    fn patch(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
-        let (count, coordinates) = announced(entity, numbers, 6)?;
-        let (pairs, _) = coordinates.as_chunks::<6>();
-        let vertices = pairs.iter().map(|&[x, y, z, ..]| [x, y, z]);
-        let normals = pairs.iter().map(|&[.., x, y, z]| [x, y, z]);
-        let first = append(&mut self.vertices, vertices, entity)?;
-        let first_normal = append(&mut self.normals, normals, entity)?;
-        check::polygon(&self.vertices[first as usize..])
-            .and_then(|()| check::normals(&self.normals[first_normal as usize..]))
-            .map_err(|fault| vertex_fault(entity, 6, fault))?;
-        Ok(Shape::Patch {
-            first,
-            count,
-            first_normal,
-        })
+    /// Returns a polygon or patch; `None` after a warning if it has no area.
+    fn polygon_or_patch(
+        &mut self,
+        entity: &Entity<'_>,
+        numbers: &[f64],
+        mistakes: &mut Sink,
+    ) -> Result<Option<Shape>, Diagnostic> {
+        let is_patch = entity.keyword == Keyword::Patch;
+        let each = if is_patch { 6 } else { 3 };
+        let (count, coordinates) = announced(entity, numbers, each)?;
+        let (first, first_normal) = (self.vertices.len(), self.normals.len());
+        for vertex in coordinates.chunks_exact(each) {
+            let (points, _) = vertex.as_chunks::<3>();
+            self.vertices.push(points[0]);
+            self.normals.extend(&points[1..]);
+        }
+        let vertices = &self.vertices[first..];
+        let oddity = match check::polygon(vertices) {
+            Err(Fault::Collinear) => {
+                let keyword = entity.keyword;
+                let warning = WarningKind::NoArea { keyword };
+                mistakes.warnings.push(warning, || entity.span);
+                self.vertices.truncate(first);
+                self.normals.truncate(first_normal);
+                return Ok(None);
+            }
+            checked => checked.and_then(|oddity| {
+                check::normals(&self.normals[first_normal..])?;
+                Ok(oddity)
+            }),
+        };
+        let place = |vertex: usize| 1 + vertex * each..4 + vertex * each;
+        let oddity = oddity.map_err(|fault| {
+            let blamed = match fault {
+                Fault::NotPlanar { vertex, .. } => place(vertex),
+                Fault::ZeroNormal { vertex } => 4 + vertex * each..7 + vertex * each,
+                _ => 0..0,
+            };
+            entity.fault(blamed, fault)
+        })?;
+        if let Some(oddity) = oddity {
+            let (vertex, warning) = match oddity {
+                Oddity::RepeatedVertex { vertex } => {
+                    let first = vertex == 0;
+                    (vertex, WarningKind::RepeatedVertex { first })
+                }
+                Oddity::Uneven { vertex, distance } => (vertex, WarningKind::Uneven { distance }),
+            };
+            mistakes
+                .warnings
+                .push(warning, || entity.span_of(place(vertex)));
+        }
+        let too_large = |_| entity.fault(0..0, Fault::TooLarge);
+        let index = |list: &[Point]| u32::try_from(list.len()).map_err(too_large);
+        index(&self.vertices)?;
+        index(&self.normals)?;
+        let (first, first_normal) = (first as u32, first_normal as u32);
+        Ok(Some(match is_patch {
+            true => Shape::Patch {
+                first,
+                count,
+                first_normal,
+            },
+            false => Shape::Polygon { first, count },
+        }))
     }
 }
 
@@ -227,7 +279,9 @@ fn announced<'n>(
     numbers: &'n [f64],
     each: usize,
 ) -> Result<(u32, &'n [f64]), Diagnostic> {
-    let (&count, coordinates) = numbers.split_first().ok_or_else(|| entity.count(numbers))?;
+    let (&count, coordinates) = numbers
+        .split_first()
+        .ok_or_else(|| entity.count(numbers, &[]))?;
     if count.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&count) {
         return Err(entity.mistake(0..1, MistakeKind::NotACount));
     }
@@ -251,30 +305,4 @@ fn announced<'n>(
         return Err(entity.mistake(blamed, kind));
     }
     Ok((count, coordinates))
-}
-
-/// Reports `fault` at the vertex or normal that it names, of `each` numbers per vertex.
-fn vertex_fault(entity: &Entity<'_>, each: usize, fault: Fault) -> Diagnostic {
-    let blamed = match fault {
-        Fault::RepeatedVertex { vertex } | Fault::NotPlanar { vertex, .. } => {
-            1 + vertex * each..4 + vertex * each
-        }
-        Fault::ZeroNormal { vertex } => 4 + vertex * each..7 + vertex * each,
-        _ => 0..0,
-    };
-    entity.fault(blamed, fault)
-}
-
-/// Appends to `list` and returns the index of the first new element.
-fn append(
-    list: &mut Vec<Point>,
-    points: impl Iterator<Item = Point>,
-    entity: &Entity<'_>,
-) -> Result<u32, Diagnostic> {
-    let first = list.len();
-    list.extend(points);
-    match u32::try_from(list.len()) {
-        Ok(_) => Ok(first as u32),
-        Err(_) => Err(entity.fault(0..0, Fault::TooLarge)),
-    }
 }

@@ -4,7 +4,7 @@ use super::token::{Lexeme, Lexer, Token};
 use crate::check::Fault;
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::Projection;
-use crate::word::{Keyword, Span};
+use crate::word::{self, Keyword, Span};
 use std::ops::Range;
 
 /// A keyword and what follows it.
@@ -23,17 +23,7 @@ pub(crate) struct Entity<'s> {
 impl Entity<'_> {
     /// Returns the numbers if there are exactly `N`.
     pub(crate) fn exactly<const N: usize>(&self, numbers: &[f64]) -> Result<[f64; N], Diagnostic> {
-        numbers.try_into().map_err(|_| {
-            let blamed = if numbers.len() > N {
-                N..numbers.len()
-            } else {
-                0..0
-            };
-            Diagnostic {
-                span: self.span_of(blamed),
-                ..self.count(numbers)
-            }
-        })
+        numbers.try_into().map_err(|_| self.count(numbers, &[N]))
     }
 
     /// Checks that none of `numbers` is negative; the first of them is the entity's number `first`.
@@ -60,15 +50,30 @@ impl Entity<'_> {
         }
     }
 
-    /// Returns a mistake at the keyword: the wrong count of `numbers`.
-    pub(crate) fn count(&self, numbers: &[f64]) -> Diagnostic {
-        self.mistake(
-            0..0,
-            MistakeKind::Count {
-                keyword: self.keyword,
-                found: numbers.len(),
-            },
-        )
+    /// Returns a mistake: a count of `numbers` that none of `forms`, in ascending order, has. It is at the first number
+    /// too many, or at the keyword if there are too few. Of several forms that are exceeded, it is the one that fills
+    /// its line, as what follows belongs to something else.
+    pub(crate) fn count(&self, numbers: &[f64], forms: &[usize]) -> Diagnostic {
+        let found = numbers.len();
+        let exceeded = || forms.iter().rev().filter(|form| **form < found);
+        let fills_line = |form: &&usize| {
+            self.tokens()
+                .nth(**form)
+                .is_some_and(|next| next.opens_line)
+        };
+        let form = exceeded().find(fills_line).or(exceeded().next());
+        let kind = MistakeKind::Count {
+            keyword: self.keyword,
+            found,
+            begins: self.span,
+        };
+        self.mistake(form.map_or(0..0, |form| *form..found), kind)
+    }
+
+    /// Returns the tokens from the first number on. Reads the entity again, which only mistakes need.
+    fn tokens(&self) -> impl Iterator<Item = Token<'_>> {
+        let words = usize::from(self.word.is_some());
+        Lexer::new(self.source, self.span.end).skip(words)
     }
 
     /// Returns a mistake at the numbers `blamed`: a wrong value.
@@ -85,11 +90,10 @@ impl Entity<'_> {
     }
 
     /// Returns the place of the numbers in `range`, as far as they are on the line of the first; for an empty range,
-    /// the place of the keyword. Reads the entity again, which only mistakes need.
+    /// the place of the keyword. Reads the entity again.
     pub(crate) fn span_of(&self, range: Range<usize>) -> Span {
-        let words = usize::from(self.word.is_some());
-        let numbers = Lexer::new(self.source, self.span.end)
-            .skip(range.start + words)
+        let numbers = (self.tokens())
+            .skip(range.start)
             .take_while(|token| matches!(token.lexeme(), Lexeme::Number(_)))
             .take(range.len());
         let mut span = None;
@@ -159,6 +163,7 @@ impl<'s> Entities<'s> {
                     return Some((keyword, token.span()));
                 }
                 Lexeme::Binary => MistakeKind::Binary,
+                Lexeme::Word if word::belongs_to_textures(token.text) => MistakeKind::Texture,
                 Lexeme::Word => MistakeKind::UnknownKeyword,
                 _ => MistakeKind::StrayNumber,
             };
@@ -198,6 +203,9 @@ impl<'s> Entities<'s> {
                 Lexeme::Binary => return false,
                 Lexeme::Word if token.opens_line => break,
                 Lexeme::NotFinite => mistakes.push(MistakeKind::NotFinite, token.span()),
+                _ if word::belongs_to_textures(token.text) => {
+                    mistakes.push(MistakeKind::Texture, token.span());
+                }
                 Lexeme::Malformed | Lexeme::Word => {
                     mistakes.push(MistakeKind::NotANumber, token.span());
                 }
@@ -207,6 +215,10 @@ impl<'s> Entities<'s> {
                 break;
             }
             self.advance();
+            // The rest of the line is meant as a comment.
+            while token.text.contains('#') && self.ahead.is_some_and(|(next, _)| !next.opens_line) {
+                self.advance();
+            }
         }
         valid
     }

@@ -7,9 +7,6 @@ use crate::diagnostic::{Diagnostic, MistakeKind, Sink};
 use crate::model::{Camera, Colour, Point, Projection, Scene};
 use crate::word::{Keyword, Span};
 
-/// Rows and columns if the file does not state them.
-const DEFAULT_SIZE: u32 = 512;
-
 /// The parts that have been read so far.
 #[derive(Debug, Default)]
 pub(super) struct Header {
@@ -26,6 +23,8 @@ pub(super) struct Header {
     background: Option<Part<Colour>>,
     /// Whether the parser is inside the `v` of NFF, where a resolution has its width first.
     inside_nff: bool,
+    /// The first resolution outside the `v` of NFF, and the first surface of the thesis.
+    of_thesis: [Option<Span>; 2],
     /// Whether a part of the camera was wrong, so that the whole cannot be checked.
     invalid: bool,
 }
@@ -70,6 +69,25 @@ impl Header {
         );
     }
 
+    /// Notes that there was a surface in the form of the thesis.
+    pub(super) fn pass_surface_of_thesis(&mut self, span: Span) {
+        self.of_thesis[1].get_or_insert(span);
+    }
+
+    /// Reports what is of the thesis if the viewpoint is NFF's: a file has one dialect.
+    fn check_dialect(&self, mistakes: &mut Sink) {
+        let is_nff = (self.viewpoint).is_some_and(|viewpoint| viewpoint.value.is_none());
+        if self.invalid || !is_nff {
+            return;
+        }
+        let keywords = [Keyword::Resolution, Keyword::Surface];
+        for (keyword, span) in keywords.into_iter().zip(self.of_thesis) {
+            if let Some(span) = span {
+                mistakes.push(MistakeKind::MixedDialects { keyword }, span);
+            }
+        }
+    }
+
     /// Stores the part that `entity` holds.
     pub(super) fn place(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
         match entity.keyword {
@@ -77,7 +95,7 @@ impl Header {
                 let position = match *numbers {
                     [] => None,
                     [x, y, z] => Some([x, y, z]),
-                    _ => return Err(entity.count(numbers)),
+                    _ => return Err(entity.count(numbers, &[3])),
                 };
                 put(&mut self.viewpoint, position, entity, 2)?;
                 self.inside_nff = position.is_none();
@@ -103,6 +121,7 @@ impl Header {
                 let mut sizes = sizes.map(|size| size as u32);
                 if !self.inside_nff {
                     sizes.reverse();
+                    self.of_thesis[0].get_or_insert(entity.span);
                 }
                 put(&mut self.resolution, sizes, entity, 0)
             }
@@ -120,31 +139,25 @@ impl Header {
 
     /// Returns a scene without objects. Missing or contradictory parts are reported in `mistakes`.
     pub(super) fn finish(self, end: Span, mistakes: &mut Sink) -> Scene {
+        self.check_dialect(mistakes);
         let camera = self.camera(end).unwrap_or_else(|mistake| {
             // If a mistake ended reading, missing parts may be in the rest.
             if let Some(Diagnostic { kind, span }) = mistake.filter(|_| !mistakes.ends_reading()) {
                 mistakes.push(kind, span);
             }
-            Camera::Thesis {
-                viewpoint: [0.0, 0.0, 1.0],
-                projection: Projection::Perspective,
-            }
+            Scene::default().camera
         });
+        let Scene { width, height, .. } = Scene::default();
         let [width, height] = self
             .resolution
-            .map_or([DEFAULT_SIZE; 2], |resolution| resolution.value);
+            .map_or([width, height], |resolution| resolution.value);
+        let background = self.background.map(|background| background.value);
         Scene {
             camera,
             width,
             height,
-            background: self
-                .background
-                .map_or([0.0; 3], |background| background.value),
-            lights: Vec::new(),
-            surfaces: Vec::new(),
-            objects: Vec::new(),
-            vertices: Vec::new(),
-            normals: Vec::new(),
+            background: background.unwrap_or_default(),
+            ..Scene::default()
         }
     }
 

@@ -1,4 +1,6 @@
 //! Tokens: texts between white space, with their places in the source.
+//!
+//! A comment begins at `#` after white space or a word. Within a number it does not: C runtimes write `1.#INF`.
 
 use crate::word::{Keyword, Span};
 
@@ -29,6 +31,10 @@ pub(crate) enum Lexeme {
     Binary,
 }
 
+fn begins_number(byte: u8) -> bool {
+    matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.')
+}
+
 impl Token<'_> {
     pub(crate) fn span(&self) -> Span {
         Span {
@@ -38,11 +44,12 @@ impl Token<'_> {
     }
 
     pub(crate) fn lexeme(&self) -> Lexeme {
-        let numeric = matches!(self.text.as_bytes()[0], b'0'..=b'9' | b'+' | b'-' | b'.');
+        let numeric = begins_number(self.text.as_bytes()[0]);
         if !numeric && let Some(keyword) = Keyword::of(self.text) {
             return Lexeme::Keyword(keyword);
         }
         match self.text.parse::<f64>() {
+            Err(_) if numeric && is_not_finite_in_c(self.text) => Lexeme::NotFinite,
             Ok(number) if number.is_finite() => Lexeme::Number(number),
             Ok(_) => Lexeme::NotFinite,
             Err(_) if self.text.chars().any(char::is_control) => Lexeme::Binary,
@@ -50,6 +57,18 @@ impl Token<'_> {
             Err(_) => Lexeme::Word,
         }
     }
+}
+
+/// Whether a text is infinity or no number as old C runtimes write it, with any digits after it.
+fn is_not_finite_in_c(text: &str) -> bool {
+    let named = |(number, name): (&str, &str)| {
+        let digits = number.trim_start_matches(['+', '-']).trim_end_matches('.');
+        let name = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        digits.bytes().all(|digit| digit.is_ascii_digit())
+            && (["INF", "IND", "NAN", "QNAN", "SNAN"].iter())
+                .any(|known| name.eq_ignore_ascii_case(known))
+    };
+    text.split_once('#').is_some_and(named)
 }
 
 /// Splits a source into tokens. Its only state is its place.
@@ -92,9 +111,10 @@ impl<'s> Iterator for Lexer<'s> {
             at += 1;
         }
         let start = at;
+        let numeric = begins_number(bytes[start]);
         at += bytes[at..]
             .iter()
-            .take_while(|&&b| !matches!(b, b' ' | b'\t'..=b'\r' | b'#'))
+            .take_while(|&&b| !matches!(b, b' ' | b'\t'..=b'\r') && (numeric || b != b'#'))
             .count();
         self.at = at;
         Some(Token {
@@ -133,7 +153,8 @@ pub(super) mod tests {
             texts("a\tb\r\nc\x0bd\x0ce  f"),
             ["a", "b", "c", "d", "e", "f"]
         );
-        assert_eq!(texts("1#x y\n2 # z\r\n3#"), ["1", "2", "3"]);
+        assert_eq!(texts("a#x y\n2 # z\r\nc#\n#1"), ["a", "2", "c"]);
+        assert_eq!(texts("1.#INF -1#2 a"), ["1.#INF", "-1#2", "a"]);
         assert_eq!(texts("\u{feff}v 1"), ["v", "1"]);
         assert_eq!(texts(" \n# only\n"), [""; 0]);
     }
@@ -172,10 +193,23 @@ pub(super) mod tests {
         ] {
             assert_eq!(lexeme(text), Lexeme::Number(number), "{text}");
         }
-        for text in ["nan", "NaN", "-inf", "Infinity", "1e999"] {
+        for text in [
+            "nan",
+            "NaN",
+            "-inf",
+            "Infinity",
+            "1e999",
+            "1.#INF",
+            "-1.#IND",
+            "1.#QNAN0",
+            "+1.#inf00",
+            "1#SNAN",
+        ] {
             assert_eq!(lexeme(text), Lexeme::NotFinite, "{text}");
         }
-        for text in ["1.2.3", "-", "1,5", "0x10", "."] {
+        for text in [
+            "1.2.3", "-", "1,5", "0x10", ".", "1#", "1.#INFO", "1.5x#INF",
+        ] {
             assert_eq!(lexeme(text), Lexeme::Malformed, "{text}");
         }
         assert_eq!(lexeme("box"), Lexeme::Keyword(Keyword::Cuboid));

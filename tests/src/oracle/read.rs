@@ -56,10 +56,7 @@ pub(super) struct Surface {
 
 /// Reads a valid scene file; panics on others.
 pub(super) fn scene(source: &str) -> Scene {
-    let uncommented = source
-        .lines()
-        .map(|line| line.split('#').next().unwrap_or(""));
-    let words: Vec<&str> = uncommented.flat_map(str::split_whitespace).collect();
+    let words: Vec<&str> = source.lines().flat_map(uncommented).collect();
 
     let mut nff = false;
     let mut from = None;
@@ -200,10 +197,28 @@ fn thesis_surface(n: &[f64]) -> Surface {
     }
 }
 
+/// The words of a line before its comment. A `#` within a number begins none.
+fn uncommented(line: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    for word in line.split_whitespace() {
+        match word.find('#') {
+            Some(hash) if !starts_as_number(word) => {
+                words.extend((hash > 0).then_some(&word[..hash]));
+                break;
+            }
+            _ => words.push(word),
+        }
+    }
+    words
+}
+
+fn starts_as_number(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+}
+
 /// Parses a word as a number; names such as `inf` are words.
 fn number(word: &str) -> Option<f64> {
-    let starts_as_number = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-    if starts_as_number {
+    if starts_as_number(word) {
         word.parse().ok().filter(|n: &f64| n.is_finite())
     } else {
         None

@@ -2,6 +2,7 @@
 
 use super::node::{CHILD, HEADER, LEAF};
 use crate::accel::build::MAX_DEPTH;
+use crate::object::ObjectRef;
 use core::fmt::{self, Display, Formatter};
 
 /// Room of a [`CompactStack`] that does for any tree.
@@ -22,52 +23,81 @@ impl<const ROOM: usize> Default for CompactStack<ROOM> {
     }
 }
 
-/// A stack with too little room for a tree.
+/// A stack with too little room for a tree, or a tree that no builder has made: its walk might have no end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct StackTooSmall {
-    /// The room that the tree's walk needs.
+    /// The room that the tree's walk needs; [`usize::MAX`] if its words or links are corrupt.
     pub needed: usize,
 }
 
 impl Display for StackTooSmall {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the tree's walk needs a stack of {} entries",
-            self.needed
-        )
+        match self.needed {
+            usize::MAX => f.write_str("the tree's words are corrupt: its walk might have no end"),
+            needed => write!(f, "the tree's walk needs a stack of {needed} entries"),
+        }
     }
 }
 
 impl core::error::Error for StackTooSmall {}
 
-/// The most nodes and leaves that can wait while a tree is walked.
-pub(super) const fn required(words: &[u32]) -> usize {
-    below(words, 0, COMPACT_MAX_DEPTH)
-}
-
-/// The same below a node: all its children, or all but one while that one is walked. A node deeper
-/// than any that is built has no bound.
-const fn below(words: &[u32], at: usize, levels: u32) -> usize {
-    if at + HEADER > words.len() {
+/// The most nodes and leaves that can wait while a tree is walked; [`usize::MAX`] if it is corrupt.
+pub(super) const fn required(words: &[u32], links: &[ObjectRef]) -> usize {
+    if words.is_empty() {
         return 0;
     }
-    if levels == 0 {
+    // The last leaf ends with the list.
+    if let [.., last] = links
+        && !last.is_last()
+    {
         return usize::MAX;
     }
+    let mut nodes = words.len() / HEADER;
+    below(words, links, 0, COMPACT_MAX_DEPTH, &mut nodes)
+}
+
+/// The same below a node: all its children, or all but one while that one is walked. There is no
+/// bound for a node deeper than any that is built, or cut short, or whose children are elsewhere
+/// than behind it and in the lists; nor if more than so many nodes are met, each by one way.
+const fn below(
+    words: &[u32],
+    links: &[ObjectRef],
+    at: usize,
+    levels: u32,
+    nodes: &mut usize,
+) -> usize {
+    if levels == 0 || *nodes == 0 || at + HEADER > words.len() {
+        return usize::MAX;
+    }
+    *nodes -= 1;
     let count = (words[at + 1] >> 28) as usize;
+    let end = at + HEADER + count * CHILD;
+    if end > words.len() {
+        return usize::MAX;
+    }
     let mut most = 1;
     let mut child = at + HEADER;
-    while child < at + HEADER + count * CHILD && child + CHILD <= words.len() {
+    while child < end {
         let place = words[child] >> 24 | words[child + 1] >> 24 << 8;
-        if place & LEAF == 0 {
-            let inner = below(words, place as usize * CHILD, levels - 1);
+        if place & LEAF != 0 {
+            if (place & !LEAF) as usize >= links.len() {
+                return usize::MAX;
+            }
+        } else {
+            let next = place as usize * CHILD;
+            if next <= at {
+                return usize::MAX;
+            }
+            let inner = below(words, links, next, levels - 1, nodes);
+            if inner == usize::MAX {
+                return usize::MAX;
+            }
             if inner > most {
                 most = inner;
             }
         }
         child += CHILD;
     }
-    count.saturating_add(most) - 1
+    count + most - 1
 }

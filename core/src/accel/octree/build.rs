@@ -91,7 +91,7 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
                 let Some(&cell) = self.nodes.get(node) else {
                     break;
                 };
-                if cell.count() <= self.leaf_size {
+                if cell.count() <= self.leaf_size || !self.can_be_separated(&cell) {
                     continue;
                 }
                 let cell = match self.variant {
@@ -122,6 +122,35 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
         let start = cell.first as usize;
         let end = start + cell.count() as usize;
         self.links.get(start..end).unwrap_or_default()
+    }
+
+    /// Whether the objects of a cell are at more places than a leaf may have objects: if not, no
+    /// split separates them. Of large leaves only so many places are looked at.
+    fn can_be_separated(&self, cell: &OctreeNode<S::Bound>) -> bool {
+        const PLACES: usize = 8;
+        let most = self.leaf_size.min(PLACES as u32) as usize;
+        let mut places = [ObjectRef::default(); PLACES];
+        let mut used = 0;
+        for &object in self.objects(cell) {
+            let known = places.get(..used).unwrap_or_default();
+            if known.iter().any(|&place| self.coincide(place, object)) {
+                continue;
+            }
+            match places.get_mut(used) {
+                Some(place) if used < most => *place = object,
+                _ => return true,
+            }
+            used += 1;
+        }
+        false
+    }
+
+    /// Whether two objects are in the same cells, whatever the cells.
+    fn coincide(&self, a: ObjectRef, b: ObjectRef) -> bool {
+        match self.link {
+            LinkBy::Shape => self.shapes.coincide(a, b),
+            LinkBy::Box => self.shapes.bounds(a) == self.shapes.bounds(b),
+        }
     }
 
     /// The cluster box: a cell whose objects' box, cut to the cell, fills less than half of it

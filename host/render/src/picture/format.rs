@@ -6,9 +6,10 @@ use super::{Picture, pfm, png, ppm, ras};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
+use octray_scenes::input;
 use std::ffi::OsStr;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::fs;
+use std::io::{self, BufRead, BufReader, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 /// A picture format, by its extension.
@@ -68,12 +69,20 @@ pub struct Target {
 }
 
 impl Target {
-    /// The target that `path` names.
+    /// The target that `path` names. What has no name of its own, standard output or a pipe, gets PNG.
     ///
     /// # Errors
-    /// As [`Format::of`].
+    /// As [`Format::of`]; if a picture would go to a terminal.
     pub fn new(path: PathBuf) -> Result<Self, String> {
-        let format = Format::of(&path)?;
+        let is_stdout = output::is_stdout(&path);
+        if is_stdout && io::stdout().is_terminal() {
+            return Err("standard output is a terminal: expected a pipe or a file".into());
+        }
+        let is_pipe = || fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+        let format = match Format::of(&path) {
+            Err(_) if is_stdout || is_pipe() => Format::Png,
+            known => known?,
+        };
         Ok(Self { path, format })
     }
 
@@ -112,12 +121,13 @@ fn encode(
     }
 }
 
-/// Read a picture of any of the formats, told by its first bytes.
+/// Read a picture of any of the formats, told by its first bytes, from a file, a pipe or, if the path is `-`, standard
+/// input.
 ///
 /// # Errors
 /// [`Error::Read`] when the file cannot be read or is no such picture.
 pub fn read(path: &Path) -> Result<Picture, Error> {
-    File::open(path)
+    input::stream(path)
         .and_then(|file| decode(&mut BufReader::new(file)))
         .map_err(|source| match source.kind() {
             ErrorKind::UnexpectedEof => Error::read(path, malformed("the picture is cut short")),

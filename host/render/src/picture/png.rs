@@ -3,8 +3,8 @@
 use super::Picture;
 use super::malformed::malformed;
 pub(super) use png::Compression;
-use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
-use std::io::{self, BufRead, Cursor, Write};
+use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations};
+use std::io::{self, BufRead, Cursor, Read, Write};
 
 /// Write the levels.
 ///
@@ -25,18 +25,23 @@ pub(super) fn write(
     Ok(())
 }
 
+/// Bytes of signature and header, and what may come beside compressed pixels.
+const HEADER: usize = 33;
+const BESIDE_PIXELS: u64 = 1 << 26;
+
 /// Read any PNG: 16 bits are cut to 8, grey is spread over the channels, alpha is dropped.
 pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
     // The decoder wants to seek, so it gets the file in memory.
-    let mut bytes = Vec::new();
-    input.read_to_end(&mut bytes)?;
-    let mut decoder = Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(Transformations::normalize_to_color8());
-    let mut reader = decoder.read_info().map_err(refused)?;
+    let bytes = whole(input)?;
+    let mut reader = decoder(&bytes)?;
     let (width, height) = reader.info().size();
     let (colour, _) = reader.output_color_type();
     let mut levels = Vec::new();
     if reader.info().interlaced {
+        // The rows come in pieces, so that memory is needed for all of them at once. Whether they all come is found out
+        // without: the size in a header may be any.
+        let mut rows = decoder(&bytes)?;
+        while rows.next_interlaced_row().map_err(refused)?.is_some() {}
         let size = reader
             .output_buffer_size()
             .ok_or_else(|| malformed("the picture is too large"))?;
@@ -56,6 +61,31 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
     Picture::from_levels(width, height, levels).ok_or_else(|| malformed("the picture is cut short"))
 }
 
+/// Reads the whole file, but no more than a picture of the size in its header can take.
+fn whole(input: &mut dyn BufRead) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![0; HEADER];
+    input.read_exact(&mut bytes)?;
+    let size = |at: usize| {
+        bytes[at..]
+            .first_chunk()
+            .map_or(0, |word| u32::from_be_bytes(*word))
+    };
+    let [width, height] = [16, 20].map(|at| u64::from(size(at)));
+    // A pixel takes up to 8 bytes, a row one more; what cannot be compressed grows a little.
+    let pixels = height.saturating_mul(8 * width + 1);
+    let most = pixels
+        .saturating_add(pixels / 64)
+        .saturating_add(BESIDE_PIXELS);
+    input.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn decoder(bytes: &[u8]) -> io::Result<Reader<Cursor<&[u8]>>> {
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    decoder.read_info().map_err(refused)
+}
+
 fn append(levels: &mut Vec<[u8; 3]>, bytes: &[u8], colour: ColorType) {
     let samples = bytes.chunks_exact(colour.samples());
     levels.extend(samples.map(|pixel| match *pixel {
@@ -67,4 +97,46 @@ fn append(levels: &mut Vec<[u8; 3]>, bytes: &[u8], colour: ColorType) {
 
 fn refused(error: png::DecodingError) -> io::Error {
     malformed(error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The head of an interlaced picture of this size without pixels, as a decoder that ignores checksums takes it.
+    fn head(width: u32, height: u32) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut info = png::Info::with_size(width, height);
+        info.color_type = ColorType::Rgb;
+        info.bit_depth = BitDepth::Eight;
+        info.interlaced = true;
+        // The encoder writes no interlaced pixels, but their header.
+        let writer = Encoder::with_info(&mut bytes, info).unwrap().write_header();
+        drop(writer);
+        bytes
+    }
+
+    #[test]
+    fn a_header_alone_takes_no_memory() {
+        for (width, height) in [(1, u32::MAX >> 1), (5, 500_000_000), (40_000, 40_000)] {
+            let bytes = head(width, height);
+            let used = allocation_counter::measure(|| {
+                read(&mut &*bytes).unwrap_err();
+            });
+            assert!(
+                used.bytes_max < 10 << 20,
+                "{width} x {height}: {}",
+                used.bytes_max
+            );
+        }
+    }
+
+    #[test]
+    fn what_follows_a_picture_for_ever_is_not_read() {
+        let mut bytes = Vec::new();
+        let picture = Picture::from_levels(1, 1, vec![[1, 2, 3]]).unwrap();
+        write(&picture, Compression::Fast, &mut bytes).unwrap();
+        let endless = Read::chain(&*bytes, io::repeat(0));
+        assert_eq!(read(&mut io::BufReader::new(endless)).unwrap(), picture);
+    }
 }

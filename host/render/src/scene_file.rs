@@ -1,0 +1,35 @@
+//! Scene files as the commands read them.
+
+use crate::error::Error;
+use octray_scenes::model::Scene;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// What there is to say of a picture in which no ray of the camera meets anything.
+pub const NOTHING_IN_SIGHT: &str = "no object is in sight: the picture is all background";
+
+/// Reads a scene. What is odd about it but harmless is told on standard error, and so is what it lacks.
+///
+/// # Errors
+/// [`Error::Scene`] with its mistakes drawn.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    let (scene, warnings) = octray_scenes::read_with_warnings(path)?;
+    if !warnings.is_empty() {
+        // A failure to print cannot be reported.
+        let _ = writeln!(io::stderr().lock(), "{warnings}\n");
+    }
+    if scene.objects.is_empty() {
+        note("the scene has no objects: the picture is all background");
+    } else if scene.lights.is_empty() {
+        note(
+            "the scene has no lights: surfaces show ambient light, and what they mirror and let through",
+        );
+    }
+    Ok(scene)
+}
+
+/// Tells something on standard error that is no mistake, but may not be meant.
+pub fn note(text: &str) {
+    // A failure to print cannot be reported.
+    let _ = writeln!(io::stderr().lock(), "note: {text}");
+}
