@@ -317,7 +317,7 @@ fn a_view_of_nothing_costs_something_and_is_told() {
         (head.to_owned(), "note: the scene has no objects"),
         (
             format!("{head} l 1 1 1 1 {surface} s 0 0 40 2"),
-            "note: no object is in sight",
+            "note: no ray of the camera meets an object",
         ),
         (
             format!("{head} {surface} s 0 0 -40 9"),

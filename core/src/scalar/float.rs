@@ -153,7 +153,7 @@ pub(super) fn power_f32(x: f32, exponent: Exponent<f32>) -> f32 {
     let x = if x > 1.0 { 1.0 } else { x };
     let (mut result, mut square, mut rest) = (1.0, x, exponent.whole);
     while rest != 0 {
-        // Where a product costs no more than a branch that cannot be foreseen.
+        // On hosts a product costs less than a mispredicted branch.
         if cfg!(not(target_os = "none")) {
             result *= if rest & 1 != 0 { square } else { 1.0 };
         } else if rest & 1 != 0 {

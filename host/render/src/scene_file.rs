@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// What there is to say of a picture in which no ray of the camera meets anything.
-pub const NOTHING_IN_SIGHT: &str = "no object is in sight: the picture is all background";
+pub const NOTHING_IN_SIGHT: &str =
+    "no ray of the camera meets an object: the picture is all background";
 
 /// Reads a scene. What is odd about it but harmless is told on standard error, and so is what it lacks.
 ///
