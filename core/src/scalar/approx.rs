@@ -143,6 +143,21 @@ impl<const N: u32> Tolerance for Approx<N> {
     }
 
     #[inline(always)]
+    fn coordinate_error(reach: Self) -> Self {
+        Self(f32::coordinate_error(reach.0))
+    }
+
+    #[inline(always)]
+    fn plane_error(reach: Self) -> Self {
+        Self(f32::plane_error(reach.0))
+    }
+
+    #[inline(always)]
+    fn rounded_quotient(self, divisor: Self) -> Self {
+        Self(self.0.quotient(divisor.0))
+    }
+
+    #[inline(always)]
     fn slack_near(reach: Self, slack: Self) -> Self {
         // Twice the error of an approximate reciprocal.
         let error = match N {

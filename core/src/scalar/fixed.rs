@@ -286,9 +286,15 @@ impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
     }
 
     #[inline(always)]
-    fn hit_error(reach: Self, slack: Self) -> Self {
-        // Normals and directions have F bits, and are multiplied by coordinates; a step for each of four roundings.
-        Scalar::min(Self::from_bits(3 * (reach.0 >> F) + 8), slack)
+    fn coordinate_error(_: Self) -> Self {
+        // The product with the direction and the distance itself are rounded.
+        Self::from_bits(2)
+    }
+
+    #[inline(always)]
+    fn plane_error(reach: Self) -> Self {
+        // Normals have F bits, and are multiplied by coordinates; a step for each of four roundings.
+        Self::from_bits(5 * (reach.0 >> F) + 4)
     }
 }
 

@@ -95,6 +95,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn coordinate_error(reach: Self) -> Self {
+                reach * (4.0 * $t::EPSILON)
+            }
+
+            #[inline(always)]
+            fn plane_error(reach: Self) -> Self {
+                reach * (16.0 * $t::EPSILON)
+            }
+
+            #[inline(always)]
             fn slack_near(reach: Self, slack: Self) -> Self {
                 Scalar::min(reach * (16.0 * $t::EPSILON), slack)
             }

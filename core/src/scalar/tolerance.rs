@@ -27,12 +27,18 @@ pub trait Tolerance: Scalar {
     /// Self-Intersection", Ray Tracing Gems, 2019).
     fn surface_error(position: Self, curvature_extent: Self) -> Self;
 
-    /// A bound on how far the computed point at which a ray meets a plane, not at a grazing angle, can lie from the true
-    /// one. `reach` is the largest coordinate of the ray's origin and of the point; `slack`, the scene's, is never
-    /// exceeded.
+    /// A bound on how far a computed point of a ray can lie from the ray, in each coordinate. `reach` is the largest
+    /// coordinate of the ray's origin and of the point.
+    fn coordinate_error(reach: Self) -> Self;
+
+    /// A bound on how far from a plane, measured across it, the computed point can lie at which a ray meets it. It
+    /// holds for [`Tolerance::rounded_quotient`].
+    fn plane_error(reach: Self) -> Self;
+
+    /// `self / divisor`, saturating; exact but for rounding even where [`Scalar::quotient`] is approximate.
     #[inline(always)]
-    fn hit_error(reach: Self, slack: Self) -> Self {
-        Self::slack_near(reach, slack)
+    fn rounded_quotient(self, divisor: Self) -> Self {
+        self.quotient(divisor)
     }
 
     /// The scene's slack; less of it near the origin where rounding is relative. `reach` is the largest coordinate that

@@ -3,9 +3,9 @@
 //! Two polygons that share an edge are seldom projected along the same axis, so what is left of the edge for one
 //! may be left of it for the other. What lies on an edge to within rounding therefore belongs to both.
 
+use super::plane::Plane;
 use crate::ray::Ray;
 use crate::scalar::{Scalar, Tolerance};
-use crate::vec3::Vec3;
 
 /// Whether a point's horizontal line to the right crosses the edge from `a` to `b`. The edge owns
 /// its lower end and not its upper one, and is always looked at from its lower end, so that two
@@ -28,40 +28,106 @@ pub(super) fn crosses_upward<S: Scalar>([low, high]: [[S; 2]; 2], p: [S; 2]) -> 
         && S::product(p[0] - low[0], high[1] - low[1]) < S::product(high[0] - low[0], p[1] - low[1])
 }
 
-/// A projected point with the room around it in which an edge counts as met.
+/// Where a ray meets a plane, projected, with the room around it in which an edge counts as met: a short piece of the
+/// ray, as what the plane is off by moves the point along the ray, and a margin on all sides.
 #[derive(Clone, Copy)]
-pub(super) struct Near<S> {
+struct Near<S> {
     point: [S; 2],
+    /// From the middle of the piece to its end.
+    half: [S; 2],
     low: [S; 2],
     high: [S; 2],
-    slack: S,
+    margin: S,
 }
 
 impl<S: Tolerance> Near<S> {
-    /// The room around `hit`, which is projected to `point`.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray<S>, hit: Vec3<S>, point: [S; 2], slack: S) -> Self {
-        let slack = S::hit_error(ray.origin.size().max(hit.size()), slack);
+    fn new(point: [S; 2], half: [S; 2], margin: S) -> Self {
+        let room = half.map(|x| x.abs() + margin);
         Self {
             point,
-            low: [point[0] - slack, point[1] - slack],
-            high: [point[0] + slack, point[1] + slack],
-            slack,
+            half,
+            low: [point[0] - room[0], point[1] - room[1]],
+            high: [point[0] + room[0], point[1] + room[1]],
+            margin,
         }
     }
 
-    /// Whether the edge from `a` to `b` is no farther than about the slack: at most √2 times that.
+    /// Whether the edge from `a` to `b` comes near.
     #[inline(always)]
-    pub(super) fn meets(&self, [a, b]: [[S; 2]; 2]) -> bool {
+    fn meets(&self, [a, b]: [[S; 2]; 2]) -> bool {
         let beside = |i: usize| a[i].max(b[i]) < self.low[i] || self.high[i] < a[i].min(b[i]);
         if beside(0) || beside(1) {
             return false;
         }
-        let [u, v] = [b[0] - a[0], b[1] - a[1]];
-        let right = S::product(self.point[0] - a[0], v);
-        let left = S::product(self.point[1] - a[1], u);
-        let room = S::product(self.slack, u.abs() + v.abs());
-        right <= left + room && left <= right + room
+        let edge = [b[0] - a[0], b[1] - a[1]];
+        let area = |p: [S; 2]| S::product(p[0], edge[1]) - S::product(p[1], edge[0]);
+        let rest = area([self.point[0] - a[0], self.point[1] - a[1]]);
+        let half = area(self.half);
+        let room = S::product(self.margin, edge[0].abs() + edge[1].abs());
+        // |rest| ≤ |half| + room.
+        let none = S::product(S::ZERO, S::ZERO);
+        let half = if half < none { none - half } else { half };
+        rest <= half + room && none - rest <= half + room
+    }
+}
+
+/// Whether a ray that meets a plane at `t` meets one of these edges there, but for rounding.
+///
+/// Not inlined, and with as few operands as can be: few rays come here, and the walks keep more in registers. At first
+/// all edges are looked at with the scene's slack, which seldom leaves one.
+#[inline(never)]
+pub(super) fn meets_edge<S: Tolerance>(
+    plane: &Plane<S>,
+    outline: Outline<'_, S>,
+    ray: &Ray<S>,
+    t: S,
+    slack: S,
+) -> bool {
+    let hit = ray.at(t);
+    if !outline.meets(&Near::new(plane.project(hit), [S::ZERO; 2], slack)) {
+        return false;
+    }
+    let reach = ray.origin.size().max(hit.size());
+    let (t, along) = plane.distance(ray, S::plane_error(reach));
+    let point = plane.project(ray.at(t));
+    // An edge that is farther off than the slack is not met, whatever the angle.
+    let along = along.min(slack);
+    let half = plane.project(ray.direction).map(|x| x * along);
+    let near = Near::new(point, half, S::coordinate_error(reach));
+    outline.meets(&near) || !S::EXACT_ROOTS && outline.encloses(point)
+}
+
+/// The edges of a polygon: all of them by its corners, or those of a band.
+#[derive(Clone, Copy)]
+pub(super) enum Outline<'a, S> {
+    Corners(&'a [[S; 2]]),
+    Band(&'a [[[S; 2]; 2]]),
+}
+
+impl<S: Tolerance> Outline<'_, S> {
+    #[inline(always)]
+    fn edges(&self) -> impl Iterator<Item = [[S; 2]; 2]> {
+        let count = match self {
+            Self::Corners(corners) => corners.len(),
+            Self::Band(edges) => edges.len(),
+        };
+        (0..count).filter_map(move |i| match self {
+            Self::Corners(corners) => {
+                let before = i.checked_sub(1).unwrap_or(count - 1);
+                Some([*corners.get(before)?, *corners.get(i)?])
+            }
+            Self::Band(edges) => edges.get(i).copied(),
+        })
+    }
+
+    #[inline(never)]
+    fn meets(&self, near: &Near<S>) -> bool {
+        self.edges().any(|edge| near.meets(edge))
+    }
+
+    fn encloses(&self, p: [S; 2]) -> bool {
+        (self.edges()).fold(false, |inside, [a, b]| inside ^ crosses(a, b, p))
     }
 }
 
@@ -78,13 +144,4 @@ pub(crate) fn encloses<S: Scalar>(corners: &[[S; 2]], p: [S; 2]) -> bool {
         a = b;
     }
     inside
-}
-
-/// The edges of an outline.
-#[inline(always)]
-pub(super) fn edges_of<S: Copy>(corners: &[[S; 2]]) -> impl Iterator<Item = [[S; 2]; 2]> {
-    let mut a = corners.last().copied();
-    corners
-        .iter()
-        .filter_map(move |&b| a.replace(b).map(|a| [a, b]))
 }

@@ -36,6 +36,16 @@ impl<S: Tolerance> Plane<S> {
         (t > S::ZERO && t <= limit).then_some(t)
     }
 
+    /// The distance along a ray at which it meets the plane, but for rounding; and how far that can be off if what is
+    /// computed lies up to `error` beside the plane.
+    #[inline(always)]
+    pub(super) fn distance(&self, ray: &Ray<S>, error: S) -> (S, S) {
+        let rise = self.normal.dot(ray.direction);
+        let above = self.above(ray.origin);
+        let t = above.abs().rounded_quotient(rise.abs());
+        (t, error.quotient(rise.abs()))
+    }
+
     /// Whether it holds a point, to within `slack`. A ray to the point meets the plane nowhere else.
     #[inline(always)]
     pub(super) fn holds(&self, point: Vec3<S>, slack: S) -> bool {

@@ -1,7 +1,7 @@
 //! The polygon of any number of vertices.
 
 use super::bands::{Bands, Outlines};
-use super::even_odd::{Near, crosses_upward, edges_of, encloses};
+use super::even_odd::{Outline, crosses_upward, encloses, meets_edge};
 use super::plane::Plane;
 use crate::observe::Observer;
 use crate::ray::{Aabb, Ray};
@@ -39,36 +39,20 @@ impl<S: Tolerance> Polygon<S> {
             return None;
         }
         let p = self.plane.project(point);
+        let meets = |outline| meets_edge(&self.plane, outline, ray, t, slack);
         let inside = if self.bands.count == 0 {
             let corners = self.corners(outlines.corners)?;
             observer.edges(corners.len());
-            encloses(corners, p) || self.on_outline(corners, ray, t, slack)
+            encloses(corners, p) || meets(Outline::Corners(corners))
         } else {
             let band = (self.bands.first + self.bands.of(p[1])) as usize;
             let (start, end) = (outlines.bands.get(band)?, outlines.bands.get(band + 1)?);
             let edges = outlines.edges.get(*start as usize..*end as usize)?;
             observer.edges(edges.len());
             let odd = (edges.iter()).fold(false, |odd, edge| odd ^ crosses_upward(*edge, p));
-            odd || self.on_edge(edges, ray, t, slack)
+            odd || meets(Outline::Band(edges))
         };
         inside.then_some(t)
-    }
-
-    /// Whether a ray meets the plane on an outline but for rounding. Not inlined, and with as few operands as can be: the
-    /// walks keep more in registers.
-    #[inline(never)]
-    fn on_outline(&self, corners: &[[S; 2]], ray: &Ray<S>, t: S, slack: S) -> bool {
-        let point = ray.at(t);
-        let near = Near::new(ray, point, self.plane.project(point), slack);
-        edges_of(corners).any(|edge| near.meets(edge))
-    }
-
-    /// The same for some of its edges.
-    #[inline(never)]
-    fn on_edge(&self, edges: &[[[S; 2]; 2]], ray: &Ray<S>, t: S, slack: S) -> bool {
-        let point = ray.at(t);
-        let near = Near::new(ray, point, self.plane.project(point), slack);
-        edges.iter().any(|&edge| near.meets(edge))
     }
 
     /// Its vertices, projected.

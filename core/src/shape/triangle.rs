@@ -1,6 +1,6 @@
 //! The triangle.
 
-use super::even_odd::{Near, crosses, edges_of};
+use super::even_odd::{Outline, crosses, meets_edge};
 use super::plane::Plane;
 use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, Tolerance};
@@ -26,22 +26,15 @@ impl<S: Tolerance> Triangle<S> {
         let p = self.plane.project(point);
         let [a, b, c] = self.corners;
         if !(crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p)) {
-            return self.on_edge(ray, t, slack).then_some(t);
+            let near = self.depth_contains(point)
+                && meets_edge(&self.plane, Outline::Corners(&self.corners), ray, t, slack);
+            return near.then_some(t);
         }
         // Rounding must not let the parity be odd outside the triangle's own box.
         let inside = self.range(0).contains(p[0])
             && self.range(1).contains(p[1])
             && self.depth_contains(point);
         inside.then_some(t)
-    }
-
-    /// Whether a ray meets the plane on an edge but for rounding. Not inlined, and with as few operands as can be: the
-    /// walks keep more in registers.
-    #[inline(never)]
-    fn on_edge(&self, ray: &Ray<S>, t: S, slack: S) -> bool {
-        let point = ray.at(t);
-        let near = Near::new(ray, point, self.plane.project(point), slack);
-        self.depth_contains(point) && edges_of(&self.corners).any(|edge| near.meets(edge))
     }
 
     #[inline(always)]

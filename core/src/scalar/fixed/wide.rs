@@ -191,8 +191,13 @@ impl<C: SaturationCounter> Tolerance for Fixed64<C> {
     }
 
     #[inline(always)]
-    fn hit_error(reach: Self, slack: Self) -> Self {
-        Scalar::min(Self::from_bits(3 * (reach.0 >> F) + 8), slack)
+    fn coordinate_error(_: Self) -> Self {
+        Self::from_bits(2)
+    }
+
+    #[inline(always)]
+    fn plane_error(reach: Self) -> Self {
+        Self::from_bits(5 * (reach.0 >> F) + 4)
     }
 }
 

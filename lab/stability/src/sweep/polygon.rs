@@ -3,7 +3,7 @@
 use crate::exact::Exact;
 use crate::fixtures::{self, outline, polygon};
 use crate::method::{About, Form, SHIPPED, Sweep};
-use crate::number::{Number, counted, slack, span, vector};
+use crate::number::{Number, counted, span, vector};
 use crate::random::Random;
 use crate::setting::Setting;
 use crate::state::{ErrorStats, StateLimits, limit};
@@ -176,7 +176,7 @@ pub fn queries<S: Number>(value: f64) -> Vec<Query<S>> {
 pub fn inside<S: Number>(query: &Query<S>) -> Option<bool> {
     let [x, y] = query.point;
     let reach = x.abs().max(y.abs()).max(S::from_f64(height::<S>()));
-    let room = S::hit_error(reach, slack::<S>()).exact();
+    let room = S::coordinate_error(reach).exact();
     let point = query.point.map(S::exact);
     let corners = query.corners.map(|c| c.map(S::exact));
     let (mut odd, mut near) = (false, false);
