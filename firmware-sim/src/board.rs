@@ -47,6 +47,12 @@ fn run() -> ! {
     })
 }
 
+/// Says that an exception was taken, and whether for want of stack.
+fn fault() -> ! {
+    print::text("fault\n");
+    exit(if stack::deepest().is_some() { 102 } else { 103 })
+}
+
 /// Renders the picture with the baked tree and returns its hash.
 #[cfg(not(octray_device_tree))]
 fn frame() -> u64 {

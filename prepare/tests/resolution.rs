@@ -110,7 +110,7 @@ fn what_is_large_or_far_is_no_matter_where_rounding_is_relative() {
     );
     assert_eq!(
         reported::<f32>(&scene("s 1e7 0 0 1"), (64, 64)).unwrap(),
-        "f32 resolves 1/262144, but the size of object 1 as a share of its distance is 1/5000000"
+        "f32 resolves 1/262144, but the size of object 1 as a share of its distance is 1/5000001"
     );
 }
 

@@ -4,6 +4,7 @@ use fastrand::Rng;
 use octray_core::observe::RayKind;
 use octray_prepare::Arith;
 use octray_prepare::choice::Choice;
+use octray_prepare::format::Format;
 use octray_tests::shot::Shot;
 use std::fmt::Write;
 
@@ -15,6 +16,13 @@ const ABOVE: &str =
 fn hits(arith: Arith, text: &str) -> u64 {
     let scene = octray_scenes::parse(text).unwrap_or_else(|e| panic!("{}", e.draw("edges", text)));
     Shot::new(arith).take(&scene).counters.hits[RayKind::Primary as usize]
+}
+
+/// Whether as many rays hit as there are pixel centres on polygons. Coarse arithmetics miss edges by some pixels, and never
+/// to the inside.
+fn covers(arith: Arith, hits: u64, right: u64) -> bool {
+    let coarse = [Arith::APPROX0, Arith::I24F8, Arith::In(Format::I22F10)].contains(&arith);
+    hits == right || coarse && hits > right
 }
 
 fn polygon(text: &mut String, corners: &[[f64; 3]]) {
@@ -36,7 +44,8 @@ fn a_height_field_covers_its_corners_in_every_arithmetic() {
         polygon(&mut text, &[at(x, y), at(x + 1, y + 1), at(x, y + 1)]);
     }
     for arith in Arith::all() {
-        assert_eq!(hits(arith, &text), 17 * 17, "{}", arith.name());
+        let hits = hits(arith, &text);
+        assert!(covers(arith, hits, 17 * 17), "{}: {hits}", arith.name());
     }
 }
 
@@ -51,7 +60,12 @@ fn pixel_centres_on_an_outline_are_covered_in_every_arithmetic() {
             &[at(-4.0, -2.0), at(4.0, -2.0), at(4.0, 2.0), at(-4.0, 2.0)],
         );
         for arith in Arith::all() {
-            assert_eq!(hits(arith, &text), 9 * 5, "{} at {tilt}", arith.name());
+            let hits = hits(arith, &text);
+            assert!(
+                covers(arith, hits, 9 * 5),
+                "{} at {tilt}: {hits}",
+                arith.name()
+            );
         }
     }
 }
@@ -74,10 +88,10 @@ fn a_ridge_has_no_holes_in_any_arithmetic() {
             polygon(&mut text, &[low, b, high]);
         }
         for arith in Arith::all() {
-            assert_eq!(
-                hits(arith, &text),
-                7 * 25,
-                "{} with seed {seed}",
+            let hits = hits(arith, &text);
+            assert!(
+                covers(arith, hits, 7 * 25),
+                "{} with seed {seed}: {hits}",
                 arith.name()
             );
         }

@@ -294,7 +294,7 @@ impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
     #[inline(always)]
     fn plane_error(reach: Self) -> Self {
         // Normals have F bits, and are multiplied by coordinates; a step for each of four roundings.
-        Self::from_bits(5 * (reach.0 >> F) + 4)
+        Self::from_bits(3 * (reach.0 >> F) + 4)
     }
 }
 

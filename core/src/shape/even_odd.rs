@@ -85,14 +85,21 @@ pub(super) fn meets_edge<S: Tolerance>(
     slack: S,
 ) -> bool {
     let hit = ray.at(t);
-    if !outline.meets(&Near::new(plane.project(hit), [S::ZERO; 2], slack)) {
+    let point = plane.project(hit);
+    if !outline.meets(&Near::new(point, [S::ZERO; 2], slack)) {
         return false;
     }
+    let point = if S::EXACT_ROOTS {
+        point
+    } else {
+        plane.project(ray.at(plane.rounded_distance(ray)))
+    };
     let reach = ray.origin.size().max(hit.size());
-    let (t, along) = plane.distance(ray, S::plane_error(reach));
-    let point = plane.project(ray.at(t));
-    // An edge that is farther off than the slack is not met, whatever the angle.
-    let along = along.min(slack);
+    // What is beside the plane is met before or after it. An edge that is farther off than the slack is not met,
+    // whatever the angle.
+    let along = S::plane_error(reach)
+        .quotient(plane.rise(ray).abs())
+        .min(slack);
     let half = plane.project(ray.direction).map(|x| x * along);
     let near = Near::new(point, half, S::coordinate_error(reach));
     outline.meets(&near) || !S::EXACT_ROOTS && outline.encloses(point)

@@ -23,7 +23,7 @@ impl<S: Tolerance> Plane<S> {
     #[inline(always)]
     pub(super) fn hit(&self, ray: &Ray<S>, limit: S) -> Option<S> {
         let above = S::narrow(S::product(self.offset, S::ONE) - self.normal.dot_wide(ray.origin));
-        let rise = self.normal.dot(ray.direction);
+        let rise = self.rise(ray);
         let (above, rise) = if rise < S::ZERO {
             (-above, -rise)
         } else {
@@ -36,14 +36,17 @@ impl<S: Tolerance> Plane<S> {
         (t > S::ZERO && t <= limit).then_some(t)
     }
 
-    /// The distance along a ray at which it meets the plane, but for rounding; and how far that can be off if what is
-    /// computed lies up to `error` beside the plane.
+    /// The distance along a ray at which it meets the plane, exact but for rounding.
     #[inline(always)]
-    pub(super) fn distance(&self, ray: &Ray<S>, error: S) -> (S, S) {
-        let rise = self.normal.dot(ray.direction);
+    pub(super) fn rounded_distance(&self, ray: &Ray<S>) -> S {
         let above = self.above(ray.origin);
-        let t = above.abs().rounded_quotient(rise.abs());
-        (t, error.quotient(rise.abs()))
+        above.abs().rounded_quotient(self.rise(ray).abs())
+    }
+
+    /// How far a ray gets to the normal's side per length.
+    #[inline(always)]
+    pub(super) fn rise(&self, ray: &Ray<S>) -> S {
+        self.normal.dot(ray.direction)
     }
 
     /// Whether it holds a point, to within `slack`. A ray to the point meets the plane nowhere else.

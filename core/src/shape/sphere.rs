@@ -49,13 +49,12 @@ impl<S: Tolerance> Sphere<S> {
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
     }
 
-    /// Where a ray that starts on the sphere and goes inward leaves it.
+    /// Where a ray that starts on the sphere and goes inward leaves it: as far behind its closest approach to the
+    /// centre as it starts before it.
     #[inline(always)]
     pub(super) fn hit_again(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
-        let to_centre = self.centre - ray.origin;
-        let middle = to_centre.dot(ray.direction);
-        let apart = to_centre - ray.direction * middle;
-        let t = middle + S::sqrt_wide(self.radius.square() - apart.square_wide());
+        let middle = (self.centre - ray.origin).dot(ray.direction);
+        let t = middle + middle;
         let half_extent = self.radius + slack;
         let in_box = || S::HITS_WITHIN_SLACK || (ray.at(t) - self.centre).size() <= half_extent;
         (t > S::ZERO && t <= limit && in_box()).then_some(t)

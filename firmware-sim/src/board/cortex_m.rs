@@ -9,6 +9,5 @@ fn main() -> ! {
 
 #[exception]
 unsafe fn HardFault(_: &ExceptionFrame) -> ! {
-    super::print::text("fault\n");
-    semihosting::process::exit(102)
+    super::fault()
 }

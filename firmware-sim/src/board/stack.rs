@@ -4,6 +4,10 @@ use core::ptr;
 
 const PAINT: u32 = 0xcccc_cccc;
 
+/// Where fewer words than these are left, the stack counts as overflown: a function need not write into all of its part
+/// of the stack, and may step over so many.
+const GUARD: usize = 16;
+
 // From the linker scripts of cortex-m-rt and riscv-rt.
 unsafe extern "C" {
     static mut __ebss: u32;
@@ -31,8 +35,8 @@ pub(super) fn paint() {
     }
 }
 
-/// Returns the bytes from the top of the stack to the lowest overwritten word, or `None` if the whole pattern is
-/// overwritten.
+/// Returns the bytes from the top of the stack to the lowest overwritten word, or `None` if that is one of the lowest
+/// [`GUARD`].
 pub(super) fn deepest() -> Option<u32> {
     let top = &raw const _stack_start as usize;
     let mut word = lowest();
@@ -41,5 +45,5 @@ pub(super) fn deepest() -> Option<u32> {
         // SAFETY: the same.
         word = unsafe { word.add(1) };
     }
-    (word != lowest()).then_some((top - word as usize) as u32)
+    (word >= lowest().wrapping_add(GUARD)).then_some((top - word as usize) as u32)
 }

@@ -22,7 +22,7 @@ pub(super) fn checker<S: Quantize>(checker: &model::Checker, place: &Placement) 
         .round()
         .min(f64::from(u32::MAX >> 1)) as u32;
     // What a hit that was put back onto its surface can be off.
-    let rounding = S::surface_error(S::from_f64(place.length(place.diagonal)), S::ZERO).to_grid();
+    let rounding = S::coordinate_error(S::from_f64(place.length(place.diagonal))).to_grid();
     let mut odd = false;
     let mut cells_of_axis = [cells; 3];
     let origin = [0, 1, 2].map(|i| {

@@ -197,7 +197,7 @@ impl<C: SaturationCounter> Tolerance for Fixed64<C> {
 
     #[inline(always)]
     fn plane_error(reach: Self) -> Self {
-        Self::from_bits(5 * (reach.0 >> F) + 4)
+        Self::from_bits(3 * (reach.0 >> F) + 4)
     }
 }
 
