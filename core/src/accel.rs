@@ -16,9 +16,9 @@
 //! 3. Nodes are left out only if they are entered beyond the best t so far; among equal t the
 //!    object with the smallest identity counts, whatever the order of tests.
 //!
-//! Where a ray leaves an object, and where it comes to a light, a computed hit may not count
-//! ([`Shapes::confirm`](crate::shape::Shapes::confirm)). Object, ray and t decide that, not the order of tests; and
-//! the hit that counts instead is one in the sense of part 1.
+//! The object that a ray leaves is not tested like others, and where the ray comes to its light a hit may not count
+//! ([`Shapes::blocks`](crate::shape::Shapes::blocks)). Object, ray and t decide that, not the order of tests; and where
+//! the ray meets again what it leaves is a hit in the sense of part 1.
 //!
 //! The modules: [`Accelerator`] is the interface; `query` holds what every walk does with the objects it comes
 //! to; `bound`, `inv_direction` and `clip` are the arithmetic of boxes, `boxes` and `sah` that of building.

@@ -51,14 +51,19 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
     pub(super) fn test_list<const INLINE: bool>(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
             let shapes = &self.scene.shapes;
-            let hit = if INLINE || cfg!(target_os = "none") {
+            let leaves = self.ray.from.leaves(object);
+            let hit = if leaves {
+                shapes.hit_again(object, self.ray, self.limit)
+            } else if INLINE || cfg!(target_os = "none") {
                 shapes.hit(object, self.ray, self.limit, self.observer)
             } else {
                 shapes.shared_hit(object, self.ray, self.limit, self.observer)
             };
             let light = self.light.filter(|_| ANY);
-            let hit = hit.and_then(|t| shapes.confirm(object, self.ray, t, self.limit, light));
-            self.observer.test(object.kind(), hit.is_some());
+            let hit = hit.filter(|&t| !shapes.is_arrival(object, self.ray, t, self.limit, light));
+            if !leaves {
+                self.observer.test(object.kind(), hit.is_some());
+            }
             if let Some(t) = hit {
                 if ANY {
                     self.found = Some(object);

@@ -12,51 +12,11 @@ use crate::scalar::Tolerance;
 use crate::scene::Light;
 
 impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
-    /// Whether a hit counts that [`Shapes::hit`] found at `t` ≤ `limit`, on the way to a light if there is one, and
-    /// where it lies in truth.
-    #[inline(always)]
-    pub fn confirm(
-        &self,
-        object: ObjectRef,
-        ray: &Ray<S>,
-        t: S,
-        limit: S,
-        light: Option<&Light<S>>,
-    ) -> Option<S> {
-        // In the nearer half even the light's own surface is met only by a ray in that surface, to within rounding.
-        if ray.from.leaves(object) || light.is_some() && t > limit - t {
-            self.confirm_at_end(object, ray, t, limit, light)
-        } else {
-            Some(t)
-        }
-    }
-
-    /// Not in the code of the walks: few hits come here.
+    /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`. Not in the code of the walks: few
+    /// rays go inward.
     #[cold]
     #[inline(never)]
-    fn confirm_at_end(
-        &self,
-        object: ObjectRef,
-        ray: &Ray<S>,
-        t: S,
-        limit: S,
-        light: Option<&Light<S>>,
-    ) -> Option<S> {
-        let t = if ray.from.leaves(object) {
-            self.hit_again(object, ray, limit)?
-        } else {
-            t
-        };
-        match light {
-            Some(light) if t > limit - t && self.holds(object, ray, limit - t, light) => None,
-            _ => Some(t),
-        }
-    }
-
-    /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
-    fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
+    pub(crate) fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         if !ray.from.is_inward() {
             return None;
         }
@@ -69,13 +29,27 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         }
     }
 
+    /// Whether a hit at `t` ≤ `limit` is where a ray arrives at its light, which the object holds: it blocks nothing.
+    #[inline(always)]
+    pub(crate) fn is_arrival(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        t: S,
+        limit: S,
+        light: Option<&Light<S>>,
+    ) -> bool {
+        // In the nearer half even the light's own surface is met only by a ray in that surface, to within rounding.
+        light.is_some_and(|light| t > limit - t && self.holds(object, ray, limit - t, light))
+    }
+
     /// Whether the object holds the light, to within [`Shapes::slack`], and the hit of the ray to it that is `short`
     /// of the light is where the ray arrives there.
     ///
     /// The slack is more than the error of any computed hit across its surface. So a surface that is farther from the
     /// light is met on the right side of it, and one that is nearer cannot be told from one that holds it.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
+    #[cold]
+    #[inline(never)]
     fn holds(&self, object: ObjectRef, ray: &Ray<S>, short: S, light: &Light<S>) -> bool {
         let (i, place) = (object.index(), light.position);
         let slack = S::slack_near(place.size().max(ray.origin.size()), self.slack);

@@ -131,7 +131,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
     }
 
     /// The distance at which `ray` first meets the object, if it does at 0 < t ≤ `limit`. Reports
-    /// to the observer how far the test goes, not the test itself. Whether the hit counts, [`Shapes::confirm`] says.
+    /// to the observer how far the test goes, not the test itself. The object is not one that the ray leaves.
     ///
     /// Not inlined on soft-float targets: one shared copy is smaller and costs nothing there, since
     /// the walks keep more in registers without it.
@@ -168,9 +168,9 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         self.hit(object, ray, limit, observer)
     }
 
-    /// Whether the object keeps `ray` from going as far as `limit`, to `light` if that is its aim: whether it meets
-    /// the object at a distance that [counts](Shapes::confirm). On hosts by `shared_hit`; on firmware, where nothing
-    /// else uses that, by a copy that says no more than this.
+    /// Whether the object keeps `ray` from going as far as `limit`, to `light` if that is its aim: whether the ray meets
+    /// it other than where it leaves it or arrives at the light. On hosts by `shared_hit`; on firmware, where
+    /// nothing else uses that, by a copy that says no more than this.
     #[cfg_attr(target_os = "none", inline(never))]
     #[cfg_attr(not(target_os = "none"), inline(always))]
     pub fn blocks<O: Observer>(
@@ -181,13 +181,14 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         light: Option<&Light<S>>,
         observer: &mut O,
     ) -> bool {
-        let hit = if cfg!(target_os = "none") {
+        let hit = if ray.from.leaves(object) {
+            self.hit_again(object, ray, limit)
+        } else if cfg!(target_os = "none") {
             self.hit(object, ray, limit, observer)
         } else {
             self.shared_hit(object, ray, limit, observer)
         };
-        hit.and_then(|t| self.confirm(object, ray, t, limit, light))
-            .is_some()
+        hit.is_some_and(|t| !self.is_arrival(object, ray, t, limit, light))
     }
 
     /// The box that every hit of the object lies in.
