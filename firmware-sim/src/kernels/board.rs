@@ -46,6 +46,12 @@ fn run() -> ! {
     exit(0)
 }
 
+/// Says that an exception was taken.
+fn fault() -> ! {
+    print::text("fault\n");
+    exit(102)
+}
+
 /// Runs operations on numbers and vectors.
 fn arithmetic() {
     let binary: [fn(S, S) -> S; 4] = [
