@@ -286,9 +286,9 @@ impl<const F: u32, C: SaturationCounter> Tolerance for Fixed<F, C> {
     }
 
     #[inline(always)]
-    fn coordinate_error(_: Self) -> Self {
-        // The product with the direction and the distance itself are rounded.
-        Self::from_bits(2)
+    fn coordinate_error(reach: Self) -> Self {
+        // Directions have F bits, as has the place of a pixel in the picture; a step for each of four roundings.
+        Self::from_bits(2 * (reach.0 >> F) + 4)
     }
 
     #[inline(always)]

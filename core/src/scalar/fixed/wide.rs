@@ -191,8 +191,8 @@ impl<C: SaturationCounter> Tolerance for Fixed64<C> {
     }
 
     #[inline(always)]
-    fn coordinate_error(_: Self) -> Self {
-        Self::from_bits(2)
+    fn coordinate_error(reach: Self) -> Self {
+        Self::from_bits(2 * (reach.0 >> F) + 4)
     }
 
     #[inline(always)]
