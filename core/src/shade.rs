@@ -81,9 +81,9 @@ impl<S: Scalar> Point<S> {
     }
 }
 
-/// The sum over all lights. `shadow_cache` holds for each light what blocked it last: most of the
-/// time the same object blocks it again, and one test finds that out (Haines and Greenberg, "The
-/// Light Buffer: A Shadow-Testing Accelerator", 1986).
+/// The sum over all lights. `shadow_cache` holds for each light what blocked it last, unless nothing did: most of
+/// the time the same object blocks it again, and one test finds that out (Haines and Greenberg, "The Light Buffer: A
+/// Shadow-Testing Accelerator", 1986).
 #[inline(always)]
 pub(crate) fn direct_light<
     S: Tolerance + Intensity,
@@ -144,6 +144,11 @@ pub(crate) fn direct_light<
                 observer.uncached_light();
             }
             continue;
+        }
+        if last.is_some()
+            && let Some(place) = shadow_cache.get_mut(i)
+        {
+            *place = None;
         }
         let mut share = surface.diffuse * facing;
         if features::contains(FEATURES, features::SPECULAR) && surface.specular != Vec3::ZERO {

@@ -82,7 +82,7 @@ impl core::error::Error for WorkspaceTooSmall {}
 
 impl<S, K> Workspace<'_, S, K> {
     /// Clears the shadow cache, so that what is counted does not depend on what was traced before.
-    pub fn clear_shadow_cache(&mut self) {
+    pub(crate) fn clear_shadow_cache(&mut self) {
         self.shadow_cache.fill(None);
     }
 }

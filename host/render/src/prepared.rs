@@ -104,8 +104,6 @@ impl<S: Quantize> Worker for Tracing<'_, S> {
         if let Some(intensities) = &mut intensities {
             intensities.fill(background.1);
         }
-        // What blocked the lights last in another tile must not change what is counted in this one.
-        self.shadow_cache.get().fill(None);
         let (left, top) = (region.columns.start, region.rows.start);
         let width = region.columns.len();
         self.render(&region, &mut |x, y, colour| {

@@ -31,26 +31,32 @@ impl Default for Schedule {
     }
 }
 
-/// Sides of tiles, and how many tiles each thread should get: in the five figures the loss at the end is then about as
-/// large as what more tiles would cost. Rays that are near each other find the same objects, so of larger tiles none
-/// takes fewer instructions than 16 x 16 pixels.
-const SIDES: [(u32, usize); 3] = [(16, 64), (8, 24), (4, 0)];
+/// Rows and columns of tiles, and how many tiles each thread should get: in the five figures the loss at the end is then
+/// about as large as what more tiles would cost. Rays that are near each other find the same objects, so of larger
+/// tiles none takes fewer instructions than 16 x 16 pixels. Columns are whole [runs](octray_core::frame::RUN).
+const SIZES: [(TileSize, usize); 3] = [(size(16, 16), 64), (size(8, 8), 24), (size(4, 8), 0)];
+
+const fn size(rows: u32, columns: u32) -> TileSize {
+    TileSize {
+        rows: NonZeroU32::new(rows).unwrap(),
+        columns: NonZeroU32::new(columns),
+    }
+}
 
 impl Schedule {
     /// The tiles of a picture where nothing else is asked for: squares of 16 x 16 pixels, unless there are many threads.
-    pub const TILE: TileSize = TileSize::tile(NonZeroU32::new(SIDES[0].0).unwrap());
+    pub const TILE: TileSize = SIZES[0].0;
 
-    /// The size of tiles: the one that was asked for, else squares of 16, 8 or 4 pixels, so that each thread gets a
+    /// The size of tiles: the one that was asked for, else 16 x 16, 8 x 8 or 8 x 4 pixels, so that each thread gets a
     /// good many.
     pub fn tile(&self, region: &Region) -> TileSize {
-        let fits = |(side, tiles): (u32, usize)| {
-            let shape = TileSize::tile(NonZeroU32::new(side)?);
+        let fits = |(shape, tiles): (TileSize, usize)| {
             (shape.count(region) / self.threads >= tiles).then_some(shape)
         };
         match self.tile {
             Some(shape) => shape,
             None if self.threads.get() == 1 => Self::TILE,
-            None => SIDES.into_iter().find_map(fits).unwrap_or(Self::TILE),
+            None => SIZES.into_iter().find_map(fits).unwrap_or(Self::TILE),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{files, value};
 use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
+use octray_core::frame::RUN;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::error::Error;
@@ -73,7 +74,7 @@ pub struct RenderArgs {
     /// Rows of a tile [default: 16, fewer with many threads]
     #[arg(long, alias = "packet-rows", value_name = "H", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     tile_rows: Option<NonZeroU32>,
-    /// Columns of a tile [default: 16, fewer with many threads; the whole width with --tile-rows]
+    /// Columns of a tile, a multiple of 8 [default: 16, 8 with many threads; the whole width with --tile-rows]
     #[arg(long, alias = "packet-columns", value_name = "W", value_parser = value::positive::<NonZeroU32>, help_heading = WORK)]
     tile_columns: Option<NonZeroU32>,
     /// Keep each thread on one core
@@ -102,12 +103,15 @@ impl RenderArgs {
             if self.samples > 1 {
                 return usage("--pixels-per-ray 4 and --samples above 1 contradict each other");
             }
-            let sides = [self.tile_rows, self.tile_columns];
-            if sides.into_iter().flatten().any(|side| side.get() % 2 == 1) {
-                return usage(
-                    "with --pixels-per-ray 4, --tile-rows and --tile-columns must be even",
-                );
+            if self.tile_rows.is_some_and(|rows| rows.get() % 2 == 1) {
+                return usage("with --pixels-per-ray 4, --tile-rows must be even");
             }
+        }
+        if self
+            .tile_columns
+            .is_some_and(|columns| columns.get() % RUN != 0)
+        {
+            return usage("--tile-columns must be a multiple of 8");
         }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
@@ -239,11 +243,11 @@ mod tests {
         let shape = |line| job(line).work.tile.map(|shape| shape.to_string());
         assert_eq!(shape("a.scene"), None);
         assert_eq!(shape("a.scene --tile-rows 9").as_deref(), Some("9 rows"));
-        let tiles = shape("a.scene --tile-columns 9");
-        assert_eq!(tiles.as_deref(), Some("9 x 16 pixels"));
+        let tiles = shape("a.scene --tile-columns 24");
+        assert_eq!(tiles.as_deref(), Some("24 x 16 pixels"));
         // The old names.
-        let tiles = shape("a.scene --packet-columns 9 --packet-rows 3");
-        assert_eq!(tiles.as_deref(), Some("9 x 3 pixels"));
+        let tiles = shape("a.scene --packet-columns 24 --packet-rows 3");
+        assert_eq!(tiles.as_deref(), Some("24 x 3 pixels"));
     }
 
     #[test]
@@ -277,8 +281,12 @@ mod tests {
 
     #[test]
     fn contradictions_are_bad_usage() {
-        for flags in ["--samples 2", "--tile-rows 3", "--tile-columns 5"] {
-            let line = format!("a.scene --pixels-per-ray 4 {flags}");
+        for flags in ["--samples 2", "--tile-rows 3"]
+            .map(|flags| format!("--pixels-per-ray 4 {flags}"))
+            .into_iter()
+            .chain(["--tile-columns 12".into()])
+        {
+            let line = format!("a.scene {flags}");
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");
         }
