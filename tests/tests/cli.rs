@@ -176,7 +176,7 @@ fn tiles_are_squares_and_smaller_for_many_threads() {
     };
     assert_eq!(tile("--threads 1"), (16, Some(16)));
     assert_eq!(tile("--threads 2 --size 640x480"), (16, Some(16)));
-    assert_eq!(tile("--threads 64"), (4, Some(4)));
+    assert_eq!(tile("--threads 64"), (4, Some(8)));
     assert_eq!(tile("--threads 2 --tile-rows 4"), (4, None));
 }
 

@@ -60,7 +60,10 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
                 shapes.shared_hit(object, self.ray, self.limit, self.observer)
             };
             let light = self.light.filter(|_| ANY);
-            let hit = hit.filter(|&t| !shapes.is_arrival(object, self.ray, t, self.limit, light));
+            let hit = match hit {
+                Some(t) if !shapes.is_arrival(object, self.ray, t, self.limit, light) => Some(t),
+                _ => None,
+            };
             if !leaves {
                 self.observer.test(object.kind(), hit.is_some());
             }

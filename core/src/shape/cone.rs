@@ -77,18 +77,16 @@ impl<S: Tolerance> Cone<S> {
         None
     }
 
-    /// Where a ray that starts on the side and goes inward meets it once more: its start is one root, so the sum of
-    /// both gives the other. A ray steeper than the side meets each half of the double cone once, and the side lies on
-    /// one of them.
+    /// Where a ray that starts on the side and goes inward meets it once more. A ray steeper than the side meets each
+    /// half of the double cone once, and the side lies on one of them.
     #[inline(always)]
     pub(super) fn hit_again(&self, ray: &Ray<S>, limit: S) -> Option<S> {
         let crossing = self.cross(ray, &mut ())?;
         if crossing.a <= S::ZERO {
             return None;
         }
-        let half_sum = self.root(-self.slope(&crossing), crossing.a)?;
-        let t = half_sum + half_sum + crossing.middle.to_local(self.exponent);
-        self.on_side(&crossing, t, ray, limit)
+        let [first, second] = self.in_order(&crossing)?;
+        self.on_side(&crossing, first.and(second)?, ray, limit)
     }
 
     /// The quadratic is set up at the ray's closest approach to the cone, in the cone's own scale:
@@ -273,7 +271,9 @@ impl<S: Tolerance> Cone<S> {
         let radial = w - self.axis * height;
         let edge = self.cos * self.mid_radius + self.sin * height;
         let cos_square = self.cos * self.cos;
-        let b = self.slope(crossing);
+        let b = S::narrow(
+            S::product(cos_square, across.dot(radial)) - S::product(self.sin * rise, edge),
+        );
         let c = S::narrow(S::product(cos_square, radial.dot(radial)) - S::product(edge, edge));
         let discriminant = S::product(b, b) - S::product(a, c);
         if discriminant < S::product(S::ZERO, S::ZERO) && !self.is_met(crossing) {
@@ -282,23 +282,6 @@ impl<S: Tolerance> Cone<S> {
         let root = S::sqrt_wide(discriminant);
         let q = if b < S::ZERO { root - b } else { -b - root };
         Some((self.root(q, a), self.root(c, q)))
-    }
-
-    /// Half the quadratic's second coefficient.
-    #[inline(always)]
-    fn slope(&self, crossing: &Crossing<S>) -> S {
-        let &Crossing {
-            w,
-            height,
-            rise,
-            across,
-            ..
-        } = crossing;
-        let radial = w - self.axis * height;
-        let edge = self.cos * self.mid_radius + self.sin * height;
-        S::narrow(
-            S::product(self.cos * self.cos, across.dot(radial)) - S::product(self.sin * rise, edge),
-        )
     }
 
     /// The quotient, if it can be within the bounding sphere's diameter: every hit lies there, at

@@ -50,11 +50,18 @@ impl<S: Tolerance> Sphere<S> {
     }
 
     /// Where a ray that starts on the sphere and goes inward leaves it: as far behind its closest approach to the
-    /// centre as it starts before it.
+    /// centre as it starts before it. Where roots are approximate, so is the direction's length, and that place.
     #[inline(always)]
     pub(super) fn hit_again(&self, ray: &Ray<S>, limit: S, slack: S) -> Option<S> {
-        let middle = (self.centre - ray.origin).dot(ray.direction);
-        let t = middle + middle;
+        let to_centre = self.centre - ray.origin;
+        let middle = to_centre.dot(ray.direction);
+        let half_chord = if S::EXACT_ROOTS {
+            middle
+        } else {
+            let apart = to_centre - ray.direction * middle;
+            S::sqrt_wide(self.radius.square() - apart.square_wide())
+        };
+        let t = middle + half_chord;
         let half_extent = self.radius + slack;
         let in_box = || S::HITS_WITHIN_SLACK || (ray.at(t) - self.centre).size() <= half_extent;
         (t > S::ZERO && t <= limit && in_box()).then_some(t)
