@@ -267,7 +267,14 @@ impl<S: Tolerance> Cone<S> {
     /// unit vectors only, and where roots are approximate there are none.
     #[inline(always)]
     fn roots_by_coefficients(&self, crossing: &Crossing<S>) -> Option<(Option<S>, Option<S>)> {
-        let &Crossing { w, height, a, .. } = crossing;
+        let &Crossing {
+            w,
+            height,
+            rise,
+            across,
+            a,
+            ..
+        } = crossing;
         let radial = w - self.axis * height;
         let edge = self.cos * self.mid_radius + self.sin * height;
         let cos_square = self.cos * self.cos;

@@ -154,7 +154,7 @@ impl Probe {
     }
 
     fn trace(renderer: &dyn Renderer, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {
-        // As the firmware divides the picture; it clears the shadow cache between strips.
+        // As the firmware divides the picture.
         let work = Schedule {
             policy: Policy::Dynamic,
             tile: Some(TileSize::strip(

@@ -136,7 +136,7 @@ mod tests {
         let runs = Runs::new(Some((48, 32)), false, &interrupt);
         let counts = runs.count(SceneVariant::of(FIGURES[2])).unwrap();
         let (map, _) = runs.map(FIGURES[2]).unwrap();
-        // The shadow cache is cleared between tiles, and box tests are expensive: 4 % in a picture this small.
+        // The map is made of strips of some rows, and what begins in each costs a little.
         let beyond = map.total() / counts.instructions - 1.0;
         assert!(beyond.abs() < 0.05, "{beyond}");
         assert_eq!(counts.pixels, 48 * 32);
