@@ -1,7 +1,7 @@
 //! The walk of a ray through the octrees.
 
-use super::Octree;
 use super::node::OctreeNode;
+use super::{Octree, Walk};
 use crate::accel::bound::BoundScalar;
 use crate::accel::inv_direction::InvDirection;
 use crate::accel::query::{Query, accelerate};
@@ -19,6 +19,9 @@ impl<B: BoundScalar> Octree<'_, B> {
         query: &mut Query<'_, S, O, ANY, FEATURES>,
         stack: &mut TraversalStack<B>,
     ) {
+        if self.walk != Walk::Ordered {
+            return self.walk_cells(query);
+        }
         let origin = query.ray.origin.map(S::to_bound);
         let inv_direction = query.ray.direction.map(S::inv_direction);
         let Some(root) = self.nodes.first() else {
