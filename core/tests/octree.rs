@@ -130,13 +130,7 @@ fn the_maximum_of_objects_is_the_roots() {
     assert_eq!(depth(3), 1);
     // Beyond it two in a cell are parted.
     assert_eq!(depth(2), 2);
-    // If it is one, two in a cell are more than it, and are split for as others are.
-    let close = [[-0.25, 0.0, 0.0, 0.25], [0.2515, 0.1, 0.0, 0.25]];
-    let one = BuildOptions {
-        leaf_size: 1,
-        ..USUAL
-    };
-    assert_eq!(modified(&close, one, |_, stats| stats.depth), 8);
+    assert_eq!(depth(1), 2);
 }
 
 #[test]
@@ -202,26 +196,13 @@ fn only_a_cell_of_one_object_is_merged_with_three_empty_ones() {
 }
 
 #[test]
-fn the_axis_that_merges_most_is_taken() {
-    // Along x each half has one ball in one octant. Along y one half has all three, along z too.
-    let balls = [
-        [-0.4, -0.4, -0.4, 0.1],
-        [0.4, -0.38, -0.4, 0.1],
-        [0.4, -0.4, -0.4, 0.1],
-    ];
-    // Two that overlap on one side: that half is not merged along x, the empty ones along y and z are.
-    modified(&balls, USUAL, |tree, _| {
-        let cells = parts(tree, &tree.nodes[0]);
-        assert!(cells.len() < 8);
-    });
-    let alone = [
-        [-0.4, -0.4, -0.4, 0.05],
-        [0.4, 0.4, 0.4, 0.05],
-        [0.4, 0.4, 0.28, 0.05],
-    ];
-    let most = BuildOptions { depth: 1, ..USUAL };
-    modified(&alone, most, |tree, _| {
-        assert_eq!(parts(tree, &tree.nodes[0]).len(), 5);
+fn a_cell_with_objects_everywhere_keeps_its_octants() {
+    let corners = [-0.4f32, 0.4].map(|x| [-0.4f32, 0.4].map(|y| [x, y]));
+    let full: Vec<_> = (corners.iter().flatten())
+        .flat_map(|[x, y]| [[*x, *y, -0.4, 0.05], [*x, *y, 0.4, 0.05]])
+        .collect();
+    modified(&full, USUAL, |tree, _| {
+        assert_eq!(parts(tree, &tree.nodes[0]).len(), 8);
     });
 }
 
@@ -248,6 +229,15 @@ fn parts_fill_their_cell() {
                 let all: f32 = parts.iter().map(|part| volume(part.bounds())).sum();
                 let whole = volume(cell.bounds());
                 assert!((all - whole).abs() < 1e-4 * whole + 1e-12, "{all} {whole}");
+                if let [half, others @ ..] = parts
+                    && parts.len() == 5
+                {
+                    assert!((volume(half.bounds()) / whole - 0.5).abs() < 1e-3);
+                    assert!(half.is_leaf() && half.count() <= 1);
+                    // Had the other half been empty, that would have been merged.
+                    let some = |cell: &OctreeNode<f32>| !cell.is_leaf() || cell.count() > 0;
+                    assert!(others.iter().any(some));
+                }
             }
         });
     }

@@ -26,8 +26,7 @@ pub enum OctreeVariant {
     ///
     /// - Two objects whose boxes overlap are a leaf; two that are apart are parted at once.
     /// - Cells of three objects and more are split as far as the depth allows. The leaf size is the
-    ///   thesis's maximum of objects: a root of three or more but no more than it is split once; if it is
-    ///   1, two objects are no exception.
+    ///   thesis's maximum of objects: a root of three or more but no more than it is split once.
     /// - A cell whose objects' box fills less than half of it has that box inside: the cluster box.
     /// - An octant of at most one object is merged with the three others of its half if they are empty.
     ///

@@ -87,7 +87,7 @@ pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
             fewer(1),
             fewer(2)
         ),
-        "R1 to R3 are rays in a plane scene. Its nodes are those that the plane cuts, and its cells hold one object. \
+        "R1 to R3 are rays in a plane scene. Its nodes are those that the plane cuts, the maxima are one object in a cell and two levels. \
          The thesis's layout is not at hand: ours was searched for so that all counts are the thesis's. The figures \
          have the depth and the leaves that `octray render` gives them."
             .into(),

@@ -12,18 +12,18 @@ use octray_render::error::Error;
 use octray_render::renderer::PrepareError;
 
 /// The height of the plane, in units of the scene file.
-const HEIGHT: f64 = -0.75;
+const HEIGHT: f64 = 8.25;
 
 /// The thesis's rays R1 to R3: x and y where each starts, and of a point on its way.
 const RAYS: [(&str, [[f64; 2]; 2]); 3] = [
-    ("R1", [[-250.0, -123.0], [250.0, 132.0]]),
-    ("R2", [[-250.0, 121.0], [250.0, -58.0]]),
-    ("R3", [[13.0, 250.0], [-250.0, -209.0]]),
+    ("R1", [[250.0, 134.0], [-250.0, -213.0]]),
+    ("R2", [[250.0, 106.0], [-147.0, -250.0]]),
+    ("R3", [[101.0, 250.0], [-123.0, -250.0]]),
 ];
 
-/// One object in a cell, and more levels than are needed.
+/// One object in a cell, and two levels below the root.
 const OPTIONS: BuildOptions = BuildOptions {
-    depth: 4,
+    depth: 2,
     leaf_size: 1,
 };
 

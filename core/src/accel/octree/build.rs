@@ -140,23 +140,21 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
 
     /// What becomes of a leaf.
     fn plan(&self, cell: &OctreeNode<S::Bound>) -> Plan<S::Bound> {
-        let count = cell.count();
         if !cell.is_leaf() {
             return Plan::Leaf;
         }
         let most = match self.variant {
             OctreeVariant::Plain => self.leaf_size,
-            // Figure 12: three objects and more are parted as far as the depth allows, two by their boxes unless
-            // the maximum is one.
-            OctreeVariant::Modified => self.leaf_size.min(2),
-        };
-        if self.variant == OctreeVariant::Modified && most == 2 {
-            if let &[a, b] = self.objects(cell) {
-                let boxes = [a, b].map(|object| to_bounds(self.shapes.bounds(object)));
-                return parted(cell, &boxes).map_or(Plan::Leaf, Plan::Part);
+            OctreeVariant::Modified => {
+                if let &[a, b] = self.objects(cell) {
+                    let boxes = [a, b].map(|object| to_bounds(self.shapes.bounds(object)));
+                    return parted(cell, &boxes).map_or(Plan::Leaf, Plan::Part);
+                }
+                // Three objects and more are split for as far as the depth allows, unless they coincide.
+                1
             }
-        }
-        if count <= most || !self.can_be_separated(cell, most) {
+        };
+        if cell.count() <= most || !self.can_be_separated(cell, most) {
             return Plan::Leaf;
         }
         Plan::Octants

@@ -3,7 +3,7 @@
 
 use super::node::{CLUSTER, LEAF, OctreeNode};
 use crate::accel::bound::BoundScalar;
-use crate::accel::boxes::{empty_box, intersection, side_lengths, union, widened};
+use crate::accel::boxes::{intersection, side_lengths, union, widened};
 use crate::ray::Aabb;
 use crate::vec3::Axis;
 
@@ -65,44 +65,36 @@ pub(super) fn parted<B: BoundScalar>(
     Some([below, above])
 }
 
-/// Merges an octant of one object, or an empty one, with three empty ones of the same half of the
-/// cell, in both halves if possible, along the axis that merges most. Returns how many cells are
-/// left; they come first.
+/// Merges an octant of one object with the three empty ones of its half of the cell, or the four of an
+/// empty half; an empty half is merged first, as no ray tests anything there. No cell that is split has
+/// two halves of so few objects. Returns how many cells are left; they come first.
 pub(super) fn merge<B: BoundScalar>(cells: &mut [OctreeNode<B>; 8]) -> usize {
-    let half = |bit: usize, side: usize| {
+    let is_in = |k: usize, (bit, side): (usize, usize)| k >> bit & 1 == side;
+    let objects = |half| {
         let cells = cells.iter().enumerate();
-        cells.filter(move |(k, _)| k >> bit & 1 == side)
+        let of_half = cells.filter(move |(k, _)| is_in(*k, half));
+        of_half.map(|(_, cell)| cell.count()).sum::<u32>()
     };
-    let lone = |bit, side| half(bit, side).map(|(_, cell)| cell.count()).sum::<u32>() <= 1;
-    let (mut best, mut most) = (0, 0);
-    for bit in 0..3 {
-        let merged = usize::from(lone(bit, 0)) + usize::from(lone(bit, 1));
-        if merged > most {
-            (best, most) = (bit, merged);
-        }
-    }
-    if most == 0 {
+    let halves = || (0..3).flat_map(|bit| [(bit, 0), (bit, 1)]);
+    let lone = |most| halves().find(|half| objects(*half) <= most);
+    let Some(half) = lone(0).or_else(|| lone(1)) else {
         return 8;
-    }
-    let mut merged = [OctreeNode::EMPTY; 8];
-    let mut places = merged.iter_mut();
-    let mut parts = 0;
-    for side in 0..2 {
-        if lone(best, side) {
-            let holder = half(best, side).find(|(_, cell)| cell.count() > 0);
-            let all = half(best, side).fold(empty_box(), |a, (_, cell)| union(a, cell.bounds));
-            if let Some(place) = places.next() {
-                *place = holder.map_or(OctreeNode::EMPTY, |(_, cell)| *cell);
-                place.bounds = all;
-                parts += 1;
+    };
+    let mut merged = OctreeNode::EMPTY;
+    let mut left = [OctreeNode::EMPTY; 8];
+    let mut places = left.iter_mut().skip(1);
+    for (k, cell) in cells.iter().enumerate() {
+        if is_in(k, half) {
+            let bounds = union(merged.bounds, cell.bounds);
+            if cell.count() > 0 {
+                merged = *cell;
             }
-        } else {
-            for (cell, place) in half(best, side).zip(places.by_ref()) {
-                *place = *cell.1;
-                parts += 1;
-            }
+            merged.bounds = bounds;
+        } else if let Some(place) = places.next() {
+            *place = *cell;
         }
     }
-    *cells = merged;
-    parts
+    left[0] = merged;
+    *cells = left;
+    5
 }
