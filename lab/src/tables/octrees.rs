@@ -87,9 +87,9 @@ pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
             fewer(1),
             fewer(2)
         ),
-        "R1 to R3 are rays in a plane scene. Its nodes are those that the plane cuts, the maxima are one object in a cell and two levels. \
-         The thesis's layout is not at hand: ours was searched for so that all counts are the thesis's. The figures \
-         have the depth and the leaves that `octray render` gives them."
+        "R1 to R3 are rays in a plane scene. Its nodes are those that the plane cuts, the maxima are one object in a \
+         cell and two levels. The thesis's layout is not at hand: ours was searched for so that all counts are the \
+         thesis's. The figures have the depth and the leaves that `octray render` gives them."
             .into(),
         "A voxel is a cell that a ray crosses on its way from cell to cell, as the thesis has it; surfaces are tested \
          in each."
