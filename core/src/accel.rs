@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | [`Bvh8`] | a bounding volume hierarchy (BVH) of eight children per node | hosts; the fastest |
 //! | [`CompactBvh8`] | the same in less than a quarter of the memory, walked in integers | small targets |
-//! | [`Octree`] | the thesis's octrees, plain and modified | comparison |
+//! | [`Octree`] | the thesis's octrees, plain and modified, and its walk | comparison |
 //! | [`BruteForce`] | no tree: every object is tested | a handful of objects; the oracle |
 //!
 //! All give exactly what testing every object gives, in every arithmetic. The proof has three
@@ -15,6 +15,8 @@
 //! 2. If P lies in a box, the walk enters that box, at a distance ≤ t ([`InvDirection`] says why).
 //! 3. Nodes are left out only if they are entered beyond the best t so far; among equal t the
 //!    object with the smallest identity counts, whatever the order of tests.
+//!
+//! An octree can be walked from cell to cell as well; `octree/cells.rs` says why that finds the same.
 //!
 //! The object that a ray leaves is not tested like others, and where the ray comes to its light a hit may not count
 //! ([`Shapes::blocks`](crate::shape::Shapes::blocks)). Object, ray and t decide that, not the order of tests; and where
@@ -48,6 +50,6 @@ pub use compact_bvh8::{
     COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactBvh8, CompactStack, StackTooSmall,
 };
 pub use inv_direction::InvDirection;
-pub use octree::{LinkBy, Octree, OctreeNode, OctreeVariant};
+pub use octree::{FaceLinks, LinkBy, Octree, OctreeNode, OctreeVariant, Walk};
 pub use scalar::AccelScalar;
 pub use stack::{STACK_SIZE, TraversalStack};

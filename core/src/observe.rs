@@ -49,6 +49,10 @@ pub trait Observer {
     /// A query visits a node of the accelerator and tests the boxes of its children.
     #[inline(always)]
     fn step(&mut self, _children: usize) {}
+    /// A walk from cell to cell enters a leaf of an octree, empty or not, or crosses what is around a
+    /// cluster box.
+    #[inline(always)]
+    fn voxel(&mut self) {}
     /// A ray was tested against an object of this kind, and met it or not.
     #[inline(always)]
     fn test(&mut self, _: ObjectKind, _met: bool) {}
@@ -139,6 +143,8 @@ pub struct QueryCounts {
     pub steps: u64,
     /// Their children.
     pub children: u64,
+    /// Cells of an octree crossed by a walk from cell to cell.
+    pub voxels: u64,
     /// Object tests by [`ObjectKind`].
     pub tests: [u64; 5],
     /// Those of them that met the object.
@@ -155,6 +161,7 @@ impl QueryCounts {
     fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.children += other.children;
+        self.voxels += other.voxels;
         self.outlines += other.outlines;
         self.edges += other.edges;
         self.sides += other.sides;
@@ -179,6 +186,11 @@ impl Counters {
     /// Nodes of the accelerator visited.
     pub fn steps(&self) -> u64 {
         self.queries.iter().map(|query| query.steps).sum()
+    }
+
+    /// Cells of an octree crossed by a walk from cell to cell.
+    pub fn voxels(&self) -> u64 {
+        self.queries.iter().map(|query| query.voxels).sum()
     }
 
     /// Object tests.
@@ -222,6 +234,10 @@ impl Observer for Counters {
         let query = &mut self.queries[self.query & 1];
         query.steps += 1;
         query.children += children as u64;
+    }
+    #[inline(always)]
+    fn voxel(&mut self) {
+        self.queries[self.query & 1].voxels += 1;
     }
     #[inline(always)]
     fn test(&mut self, kind: ObjectKind, met: bool) {

@@ -4,6 +4,7 @@ use crate::job::{RenderJob, StatsFormat};
 use crate::stats::{Dropped, Seconds, Stats};
 use crate::summary::Summary;
 use octray_core::observe::RayKind;
+use octray_prepare::Walk;
 use octray_render::counts::SceneCounts;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -83,6 +84,7 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) ->
         size: traced.picture.size(),
         rays: Rays::of(&traced.counters),
         steps: traced.counters.steps(),
+        voxels: (job.settings.tree.walk != Walk::Ordered).then(|| traced.counters.voxels()),
         tests: traced.counters.tests(),
         hits: traced.counters.hits[RayKind::Primary as usize],
         saturations: traced.saturations,

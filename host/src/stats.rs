@@ -35,6 +35,9 @@ pub struct Stats {
     pub rays: Rays,
     /// Visited nodes, or cells of an octree.
     pub steps: u64,
+    /// Cells of an octree crossed, if it was walked from cell to cell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub voxels: Option<u64>,
     /// Tests of a ray against an object.
     pub tests: u64,
     /// Primary rays that hit an object.
@@ -125,6 +128,7 @@ pub(crate) mod tests {
                 transmitted: 0,
             },
             steps: 1_234_567,
+            voxels: None,
             tests: 765_432,
             hits: 180_000,
             saturations: 5,

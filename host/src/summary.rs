@@ -39,6 +39,9 @@ impl fmt::Display for Summary<'_> {
             stats.steps,
             &per_ray(stats.steps, rays.total()),
         )?;
+        if let Some(voxels) = stats.voxels {
+            count(f, "voxels", voxels, &per_ray(voxels, rays.total()))?;
+        }
         count(
             f,
             "object tests",
@@ -240,6 +243,17 @@ idle          500 us, 0 us
         assert!(!text.contains("rays/s"), "{text}");
         assert!(
             text.contains("\ntoo coarse    f32 resolves little\n"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn voxels_are_told_where_rays_go_from_cell_to_cell() {
+        let mut stats = example();
+        stats.voxels = Some(762_146);
+        let text = Summary(&stats).to_string();
+        assert!(
+            text.contains("\nvoxels                762,146  2.00 per ray\n"),
             "{text}"
         );
     }

@@ -1,7 +1,7 @@
 //! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its numbers.
 //!
-//! In the order of the data: [`runs`] traces variants of a [`subject`]. From the counts, [`traced`] makes tables I, II
-//! (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`; [`shared`]
+//! In the order of the data: [`runs`] traces variants of a [`subject`]. From the counts, [`octrees`] makes
+//! table I (with [`plane`]), [`traced`] II (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`; [`shared`]
 //! simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`];
 //! VIII and IX also become [`chart`]s.
 
@@ -10,6 +10,8 @@ pub mod chart;
 pub mod emulated;
 
 pub mod number;
+pub mod octrees;
+pub mod plane;
 pub mod record;
 pub mod runs;
 pub mod shared;
@@ -102,7 +104,7 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     let mut tables = Vec::new();
     for number in &job.tables {
         let draft = match number {
-            TableNumber::One => traced::one(&runs)?,
+            TableNumber::One => octrees::one(&runs)?,
             TableNumber::Two => traced::two(&runs, &thesis)?,
             TableNumber::Three => emulated::three(job.record.as_deref())?,
             TableNumber::Four => traced::four(&runs)?,

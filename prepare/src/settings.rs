@@ -64,6 +64,9 @@ pub struct TreeSettings {
     pub arena: Option<NonZeroUsize>,
     /// How objects are assigned to the cells of an octree.
     pub link: Link,
+    /// How rays find their way through an octree; other trees have only one.
+    #[serde(default)]
+    pub walk: Walk,
 }
 
 impl TreeSettings {
@@ -75,6 +78,7 @@ impl TreeSettings {
             leaf_size: None,
             arena: None,
             link: Link::Shape,
+            walk: Walk::Ordered,
         }
     }
 
@@ -138,7 +142,7 @@ pub enum TreeKind {
     #[strum(to_string = "compact-bvh8", serialize = "packed")]
     #[serde(rename = "compact-bvh8", alias = "packed")]
     CompactBvh8,
-    /// The thesis's octree: cells with cluster boxes; one cell is merged with three empty ones where possible.
+    /// The thesis's octree (its figure 12): cells with cluster boxes, two objects parted at once, empty cells merged.
     Modified,
     /// Glassner's octree: cells split at the centre, objects linked into every leaf they touch.
     Plain,
@@ -150,6 +154,11 @@ impl TreeKind {
     /// Returns its name on the command line and in statistics.
     pub fn name(self) -> &'static str {
         self.into()
+    }
+
+    /// Returns whether it is one of the octrees.
+    pub const fn is_octree(self) -> bool {
+        matches!(self, Self::Modified | Self::Plain)
     }
 
     /// Returns the default of the deepest level of nodes.
@@ -262,6 +271,45 @@ pub enum Link {
     Shape,
     /// To every cell that its bounding box overlaps.
     Box,
+}
+
+/// How rays find their way through the plain and the modified octree. All ways give the same picture, bit for bit.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Hash,
+    Serialize,
+    Deserialize,
+    VariantArray,
+    EnumMessage,
+    EnumString,
+    IntoStaticStr,
+)]
+#[strum(serialize_all = "kebab-case")]
+#[serde(rename_all = "kebab-case")]
+pub enum Walk {
+    /// Downward from the root: the parts of a cell that the ray meets, in order.
+    #[default]
+    Ordered,
+    /// The thesis's: from cell to cell, each looked for from the root at the ray's exit from the last.
+    Neighbour,
+    /// From cell to cell along links between their faces.
+    Links,
+}
+
+impl Walk {
+    /// Returns it as the core has it.
+    pub const fn of_core(self) -> octray_core::accel::Walk {
+        match self {
+            Self::Ordered => octray_core::accel::Walk::Ordered,
+            Self::Neighbour => octray_core::accel::Walk::Neighbour,
+            Self::Links => octray_core::accel::Walk::Links,
+        }
+    }
 }
 
 /// Pixels that one ray colours.

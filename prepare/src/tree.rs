@@ -2,8 +2,8 @@
 
 use crate::quantise::Quantised;
 use octray_core::accel::{
-    BuildError, BuildOptions, BuildStats, Bvh8, Bvh8Memory, Bvh8Node, CompactBvh8, LinkBy, Octree,
-    OctreeNode, OctreeVariant,
+    BuildError, BuildOptions, BuildStats, Bvh8, Bvh8Memory, Bvh8Node, CompactBvh8, FaceLinks,
+    LinkBy, Octree, OctreeNode, OctreeVariant, Walk,
 };
 use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
@@ -123,10 +123,12 @@ impl OwnedCompactBvh8 {
 pub struct OwnedOctree<P> {
     nodes: Vec<OctreeNode<P>>,
     links: Vec<ObjectRef>,
+    neighbours: Vec<FaceLinks>,
+    walk: Walk,
 }
 
 impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
-    /// Builds the tree, and sorts the scene's objects in the order of its leaves.
+    /// Builds the tree, to be walked in order, and sorts the scene's objects in the order of its leaves.
     pub fn build<S: Quantize<Bound = P>>(
         scene: &mut Quantised<S>,
         growth: &Growth,
@@ -170,8 +172,27 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
             nodes.truncate(used);
             links.truncate(used_links);
             scene.reorder(&mut links);
-            return (Self { nodes, links }, summary);
+            let tree = Self {
+                nodes,
+                links,
+                neighbours: Vec::new(),
+                walk: Walk::Ordered,
+            };
+            return (tree, summary);
         }
+    }
+
+    /// Returns the same tree to be walked another way.
+    #[must_use]
+    pub fn walked(mut self, walk: Walk) -> Self {
+        let mut neighbours = Vec::new();
+        if walk == Walk::Links {
+            neighbours.resize(self.nodes.len(), FaceLinks::default());
+            // There is room for the links of each node.
+            let _ = self.tree().with_links(&mut neighbours);
+        }
+        (self.neighbours, self.walk) = (neighbours, walk);
+        self
     }
 
     /// Returns the tree as the tracer uses it.
@@ -179,6 +200,8 @@ impl<P: octray_core::accel::BoundScalar> OwnedOctree<P> {
         Octree {
             nodes: &self.nodes,
             links: &self.links,
+            neighbours: &self.neighbours,
+            walk: self.walk,
         }
     }
 }

@@ -250,6 +250,10 @@ fn every_arithmetic_and_every_tree_shows_the_scene() {
             "plain --arena 1",
             "plain --tree-depth 2 --link box",
             "modified --link box --leaf-size 5",
+            "plain --walk neighbour",
+            "plain --walk links --leaf-size 1",
+            "modified --walk neighbour --leaf-size 1",
+            "modified --walk links",
         ] {
             let same = stats(folder.path(), &format!("--arith {arith} --tree {tree}"));
             assert_eq!(same["hash"], first["hash"], "{arith}, {tree}");

@@ -1,6 +1,7 @@
 //! The numbers that boxes are held in, apart from the scene's own arithmetic.
 
 use crate::array::map3;
+use crate::scalar::{whole_f32, whole_f64};
 use core::fmt::Debug;
 
 /// A number for coordinates of boxes and distances along a ray: `f32`, `f64`, or the bits of a
@@ -63,10 +64,24 @@ pub trait BoundScalar: Copy + Debug + Default + PartialOrd + Send + Sync + 'stat
 
     /// Which of `bins` equal parts of `low` … `high` holds `self`.
     fn bin_index(self, low: Self, high: Self, bins: u32) -> u32;
+
+    /// A coordinate or a length on the grid: an integer, with [`BoundScalar::GRID_SLACK`] at most
+    /// between what a ray's computed point rounds to and where the ray truly is. Coordinates of a
+    /// scene, and their differences, stay below 2³¹.
+    fn to_grid(self) -> i32;
+
+    /// See [`BoundScalar::to_grid`].
+    const GRID_SLACK: i32;
+
+    /// `self` less twice [`BoundScalar::GRID_SLACK`].
+    fn lowered(self) -> Self;
+
+    /// `self` and twice [`BoundScalar::GRID_SLACK`].
+    fn raised(self) -> Self;
 }
 
 macro_rules! float_bound {
-    ($t:ident, unit: $unit:expr, least: $least:expr) => {
+    ($t:ident, unit: $unit:expr, least: $least:expr, whole: $whole:ident) => {
         impl BoundScalar for $t {
             const ZERO: Self = 0.0;
             const MAX: Self = $t::MAX;
@@ -121,12 +136,32 @@ macro_rules! float_bound {
                 let position = (self - low) / (high - low) * bins as Self;
                 (position as u32).min(bins - 1)
             }
+
+            // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
+            // a unit in `f32`, 2⁷ on the grid; points are off by a few.
+            #[inline(always)]
+            fn to_grid(self) -> i32 {
+                $whole::<29>(self)
+            }
+
+            const GRID_SLACK: i32 = 1 << 10;
+
+            fn lowered(self) -> Self {
+                self - MARGIN as $t
+            }
+
+            fn raised(self) -> Self {
+                self + MARGIN as $t
+            }
         }
     };
 }
 
-float_bound!(f32, unit: 1.0 / (1u64 << 24) as f32, least: 1.0 / (1u64 << 40) as f32);
-float_bound!(f64, unit: 1.0 / (1u64 << 53) as f64, least: 1.0 / (1u64 << 60) as f64);
+/// Twice the grid's slack, 2¹¹, where 1 is 2²⁹.
+const MARGIN: f32 = 1.0 / (1 << 18) as f32;
+
+float_bound!(f32, unit: 1.0 / (1u64 << 24) as f32, least: 1.0 / (1u64 << 40) as f32, whole: whole_f32);
+float_bound!(f64, unit: 1.0 / (1u64 << 53) as f64, least: 1.0 / (1u64 << 60) as f64, whole: whole_f64);
 
 /// The reciprocal of a direction in fixed point: a signed mantissa and a right shift.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +171,7 @@ pub struct Shifted<M> {
 }
 
 macro_rules! fixed_bound {
-    ($t:ident, $unsigned:ident, $wide:ident, area_shift: $down:expr) => {
+    ($t:ident, $unsigned:ident, $wide:ident, area_shift: $down:expr, below_grid: $below:expr) => {
         impl BoundScalar for $t {
             const ZERO: Self = 0;
             const MAX: Self = $t::MAX;
@@ -203,9 +238,24 @@ macro_rules! fixed_bound {
                 let width = (high.wrapping_sub(low) as $unsigned) / bins as $unsigned + 1;
                 ((self.wrapping_sub(low) as $unsigned / width) as u32).min(bins - 1)
             }
+
+            #[inline(always)]
+            fn to_grid(self) -> i32 {
+                (self >> $below) as i32
+            }
+
+            const GRID_SLACK: i32 = 4;
+
+            fn lowered(self) -> Self {
+                Ord::max(self.saturating_sub(8 << $below), Self::MIN)
+            }
+
+            fn raised(self) -> Self {
+                self.saturating_add(8 << $below)
+            }
         }
     };
 }
 
-fixed_bound!(i32, u32, i64, area_shift: 12);
-fixed_bound!(i64, u64, i128, area_shift: 44);
+fixed_bound!(i32, u32, i64, area_shift: 12, below_grid: 0);
+fixed_bound!(i64, u64, i128, area_shift: 44, below_grid: 32);

@@ -24,6 +24,26 @@ pub(super) fn union<B: BoundScalar>(a: Aabb<B>, b: Aabb<B>) -> Aabb<B> {
     both
 }
 
+/// What two boxes have in common; inverted on an axis on which they are apart.
+pub(super) fn intersection<B: BoundScalar>(a: &Aabb<B>, b: &Aabb<B>) -> Aabb<B> {
+    let mut common = *a;
+    for axis in Axis::ALL {
+        common.low[axis] = a.low[axis].max(b.low[axis]);
+        common.high[axis] = a.high[axis].min(b.high[axis]);
+    }
+    common
+}
+
+/// The box wider on each side by the margin within which a ray is known on the grid.
+pub(super) fn widened<B: BoundScalar>(bounds: &Aabb<B>) -> Aabb<B> {
+    let mut wider = *bounds;
+    for axis in Axis::ALL {
+        wider.low[axis] = bounds.low[axis].lowered();
+        wider.high[axis] = bounds.high[axis].raised();
+    }
+    wider
+}
+
 /// A shape's box in the numbers that trees hold boxes in, exactly.
 pub(super) fn to_bounds<S: AccelScalar>(bounds: Aabb<S>) -> Aabb<S::Bound> {
     Aabb {

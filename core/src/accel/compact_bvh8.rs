@@ -5,7 +5,7 @@
 //! "Memory-Conserving Bounding Volume Hierarchies with Coherent Raytracing" (2006), and in Ylitie,
 //! Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs" (2017).
 //!
-//! Coordinates are on the *grid*: [`AccelScalar::to_grid`](super::AccelScalar::to_grid) maps a
+//! Coordinates are on the *grid*: [`BoundScalar::to_grid`](super::BoundScalar::to_grid) maps a
 //! scene's numbers to integers whose differences stay below 2³¹. Boxes and distances are in *ticks*,
 //! the power of two of grid units of which the scene's diameter has 2¹³ to 2¹⁴: products of two such
 //! numbers fit 32 bits.

@@ -1,12 +1,17 @@
 //! The thesis's two trees: the *plain* octree (Glassner 1984), whose cells are split at the centre
-//! into eight octants, and the *modified* one (figure 12), which merges and shrinks cells.
+//! into eight octants, and the *modified* one of figure 12, with cluster boxes and merged cells.
 //! Objects are linked into every leaf that they touch.
 
 mod build;
+mod cells;
+mod faces;
+mod line;
+mod modified;
 mod node;
 mod overlap;
 mod walk;
 
+pub use faces::FaceLinks;
 pub use node::OctreeNode;
 
 use crate::object::ObjectRef;
@@ -14,12 +19,31 @@ use crate::object::ObjectRef;
 /// Which of the thesis's trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OctreeVariant {
-    /// Every inner cell has its eight octants, empty ones included.
+    /// Every inner cell has its eight octants, empty ones included. A cell of no more objects than the
+    /// leaf size is a leaf.
     Plain,
-    /// An octant whose three neighbours in the same half of the cell are empty is merged with
-    /// them; a cell whose objects' box fills less than half of it shrinks to that box (the
-    /// cluster box); a cell in which splitting separates nothing stays a leaf.
+    /// Figure 12 of the thesis.
+    ///
+    /// - Two objects whose boxes overlap are a leaf; two that are apart are parted at once.
+    /// - Cells of three objects and more are split as far as the depth allows. The leaf size is the
+    ///   thesis's maximum of objects: a root of three or more but no more than it is split once.
+    /// - A cell whose objects' box fills less than half of it has that box inside: the cluster box.
+    /// - An octant of at most one object is merged with the three others of its half if they are empty.
+    ///
+    /// Objects that coincide are not split for.
     Modified,
+}
+
+/// How a ray finds its way through an octree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walk {
+    /// Downward from the root: the parts of a cell that the ray meets, in order.
+    Ordered,
+    /// From cell to cell (section 5.3 of the thesis): each is looked for from the root, at the point where
+    /// the ray leaves the one before.
+    Neighbour,
+    /// The same, but each is looked for from the node behind that face. See [`Octree::with_links`].
+    Links,
 }
 
 /// When an object is linked into a cell.
@@ -61,4 +85,8 @@ pub struct Octree<'a, B> {
     pub nodes: &'a [OctreeNode<B>],
     /// The objects, leaf by leaf, the last of each leaf marked.
     pub links: &'a [ObjectRef],
+    /// What is behind each cell's faces, for [`Walk::Links`]; else empty.
+    pub neighbours: &'a [FaceLinks],
+    /// How it is walked.
+    pub walk: Walk,
 }

@@ -1,5 +1,6 @@
 //! What the accelerators ask of a number.
 
+use super::bound::BoundScalar;
 use super::clip::ClipBoxes;
 use super::inv_direction::InvDirection;
 use crate::scalar::{
@@ -23,13 +24,11 @@ pub trait AccelScalar: Tolerance {
     /// The reciprocal of a direction's component, as the walk wants it.
     fn inv_direction(self) -> InvDirection<Self::Bound>;
 
-    /// A coordinate or a length on the grid: an integer, with [`AccelScalar::GRID_SLACK`] at most
-    /// between what a ray's computed point rounds to and where the ray truly is. Coordinates of a
-    /// scene, and their differences, stay below 2³¹.
-    fn to_grid(self) -> i32;
-
-    /// See [`AccelScalar::to_grid`].
-    const GRID_SLACK: i32;
+    /// [`BoundScalar::to_grid`] of the same value.
+    #[inline(always)]
+    fn to_grid(self) -> i32 {
+        self.to_bound().to_grid()
+    }
 
     /// A direction's component, −1 to 1, with 30 bits behind the point.
     fn direction_q30(self) -> i32;
@@ -54,15 +53,6 @@ macro_rules! float {
             fn inv_direction(self) -> InvDirection<Self> {
                 InvDirection::<Self>::of(self)
             }
-
-            // Scenes are scaled to a diagonal of 1 to 2. Coordinates of up to 2 have steps of 2⁻²² of
-            // a unit in `f32`, 2⁷ on the grid; points are off by a few.
-            #[inline(always)]
-            fn to_grid(self) -> i32 {
-                $whole::<29>(self)
-            }
-
-            const GRID_SLACK: i32 = 1 << 10;
 
             #[inline(always)]
             fn direction_q30(self) -> i32 {
@@ -94,13 +84,6 @@ impl<const N: u32> AccelScalar for Approx<N> {
     }
 
     #[inline(always)]
-    fn to_grid(self) -> i32 {
-        self.0.to_grid()
-    }
-
-    const GRID_SLACK: i32 = f32::GRID_SLACK;
-
-    #[inline(always)]
     fn direction_q30(self) -> i32 {
         self.0.direction_q30()
     }
@@ -124,13 +107,6 @@ impl<const F: u32, C: SaturationCounter> AccelScalar for Fixed<F, C> {
         let (mantissa, shift) = self.reciprocal().parts();
         InvDirection::<i32>::new(self.to_bits() < 0, mantissa, shift)
     }
-
-    #[inline(always)]
-    fn to_grid(self) -> i32 {
-        self.to_bits()
-    }
-
-    const GRID_SLACK: i32 = 4;
 
     #[inline(always)]
     fn direction_q30(self) -> i32 {
@@ -166,13 +142,6 @@ impl<C: SaturationCounter> AccelScalar for Fixed64<C> {
         let signed = if raw < 0 { -mantissa } else { mantissa };
         InvDirection::<i64>::new(raw < 0, signed, shift)
     }
-
-    #[inline(always)]
-    fn to_grid(self) -> i32 {
-        (self.to_bits() >> 32) as i32
-    }
-
-    const GRID_SLACK: i32 = 4;
 
     #[inline(always)]
     fn direction_q30(self) -> i32 {

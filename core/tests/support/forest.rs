@@ -1,7 +1,7 @@
 //! One scene in every accelerator, and the comparison of what they find.
 
 use fastrand::Rng;
-use octray_core::accel::{Accelerator, BruteForce, BuildOptions, LinkBy, OctreeVariant};
+use octray_core::accel::{Accelerator, BruteForce, BuildOptions, LinkBy, OctreeVariant, Walk};
 use octray_core::object::ObjectRef;
 use octray_core::quantize::Quantize;
 use octray_core::ray::{Departure, Ray};
@@ -12,7 +12,14 @@ use octray_prepare::tree::{Growth, OwnedBvh8, OwnedCompactBvh8, OwnedOctree, eve
 use std::collections::BTreeMap;
 
 /// A tree with its name and the scene in its order.
-pub(crate) type Built<S, T> = (&'static str, Quantised<S>, T);
+pub(crate) type Built<S, T> = (String, Quantised<S>, T);
+
+/// The ways to walk octrees, by turns.
+const WALKS: [&[Walk]; 3] = [
+    &[Walk::Ordered],
+    &[Walk::Neighbour, Walk::Links],
+    &[Walk::Links, Walk::Neighbour, Walk::Ordered],
+];
 
 /// One scene in all accelerators. Building a tree puts the objects into its own order, so that each
 /// has a copy of its own.
@@ -25,7 +32,7 @@ pub(crate) struct Forest<S: Quantize> {
     pub(crate) bvh8: Built<S, OwnedBvh8<S::Bound>>,
     /// The compact one.
     pub(crate) compact: Built<S, OwnedCompactBvh8>,
-    /// Octrees.
+    /// Octrees, walked in all ways.
     pub(crate) octrees: Vec<Built<S, OwnedOctree<S::Bound>>>,
 }
 
@@ -74,19 +81,24 @@ impl<S: Quantize> Forest<S> {
             bvh8: {
                 let mut scene = bare.clone();
                 let (tree, _) = OwnedBvh8::build(&mut scene, &bvh8.1);
-                (bvh8.0, scene, tree)
+                (bvh8.0.into(), scene, tree)
             },
             compact: {
                 let mut scene = bare.clone();
                 let (tree, _) = OwnedCompactBvh8::build(&mut scene, &bvh8.1).expect("few objects");
-                ("compact bvh8", scene, tree)
+                ("compact bvh8".into(), scene, tree)
             },
             octrees: octrees
                 .into_iter()
-                .map(|(name, growth, variant, link)| {
+                .zip([&WALKS[..2], &WALKS[..2], &WALKS[2..]])
+                .flat_map(|((name, growth, variant, link), walks)| {
                     let mut scene = bare.clone();
                     let (tree, _) = OwnedOctree::build(&mut scene, &growth, variant, link);
-                    (name, scene, tree)
+                    walks.iter().map(move |walks| {
+                        let walk = walks[seed as usize % walks.len()];
+                        let tree = tree.clone().walked(walk);
+                        (format!("{name}, {walk:?}"), scene.clone(), tree)
+                    })
                 })
                 .collect(),
         }
@@ -116,7 +128,7 @@ impl<S: Quantize> Forest<S> {
                 format!("{case}: {nearest:?}, but within {limit:?} {blocked}; {ray:?}")
             });
         }
-        let mut check = |name, got, meets: &[bool], arrives| {
+        let mut check = |name: &str, got, meets: &[bool], arrives| {
             let right = got == nearest && meets == blocked && arrives == lit;
             wrong.check(name, right, || {
                 format!(
@@ -212,13 +224,14 @@ pub(crate) struct Wrong {
     /// Those that met something.
     pub(crate) hits: u64,
     /// By tree: how many rays, and the first of them.
-    by_tree: BTreeMap<&'static str, (u64, String)>,
+    by_tree: BTreeMap<String, (u64, String)>,
 }
 
 impl Wrong {
-    fn check(&mut self, tree: &'static str, right: bool, tell: impl FnOnce() -> String) {
+    fn check(&mut self, tree: &str, right: bool, tell: impl FnOnce() -> String) {
         if !right {
-            self.by_tree.entry(tree).or_insert_with(|| (0, tell())).0 += 1;
+            let of_tree = self.by_tree.entry(tree.into());
+            of_tree.or_insert_with(|| (0, tell())).0 += 1;
         }
     }
 

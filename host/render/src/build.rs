@@ -90,7 +90,8 @@ impl Request<'_> {
             Link::Box => accel::LinkBy::Box,
         };
         let (tree, summary) = S::octree(&mut prepared.scene, &growth, variant, link);
-        Ok(self.ready(prepared, OwnedAccelerator::Octree(tree), summary))
+        let tree = OwnedAccelerator::Octree(tree.walked(self.settings.tree.walk.of_core()));
+        Ok(self.ready(prepared, tree, summary))
     }
 
     fn ready<S: Prepare>(

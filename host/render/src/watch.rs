@@ -65,6 +65,10 @@ impl Observer for Watch {
         self.counters.step(children);
     }
     #[inline(always)]
+    fn voxel(&mut self) {
+        self.counters.voxel();
+    }
+    #[inline(always)]
     fn test(&mut self, kind: ObjectKind, met: bool) {
         self.counters.test(kind, met);
     }

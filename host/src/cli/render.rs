@@ -5,7 +5,7 @@ use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
 use octray_core::frame::RUN;
 use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings, Walk};
 use octray_render::error::Error;
 use octray_render::picture::{RasDepth, Target};
 use octray_render::schedule::Schedule;
@@ -64,6 +64,9 @@ pub struct RenderArgs {
     /// How the plain and the modified octree assign objects to their cells
     #[arg(long, value_name = "BY", value_parser = value::choice::<Link>(), default_value = Link::default().name(), help_heading = TREE)]
     link: Link,
+    /// How rays find their way through the plain and the modified octree; the picture is the same
+    #[arg(long, value_name = "HOW", value_parser = value::choice::<Walk>(), default_value = Walk::default().name(), help_heading = TREE)]
+    walk: Walk,
 
     /// Number of threads [default: one per core; with --mpi one per rank]
     #[arg(long, value_name = "N", value_parser = value::threads, help_heading = WORK)]
@@ -113,6 +116,13 @@ impl RenderArgs {
         {
             return usage("--tile-columns must be a multiple of 8");
         }
+        if self.walk != Walk::Ordered && !self.tree.is_octree() {
+            return Err(Error::Usage(format!(
+                "--walk {} is for --tree plain and --tree modified, not {}",
+                self.walk.name(),
+                self.tree.name()
+            )));
+        }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
             true if self.threads.is_some_and(|threads| threads.get() > 1) => {
@@ -141,6 +151,7 @@ impl RenderArgs {
                     leaf_size: self.leaf_size,
                     arena: self.arena,
                     link: self.link,
+                    walk: self.walk,
                 },
                 size: self.size,
                 pixels_per_ray: self.pixels_per_ray,
@@ -205,7 +216,7 @@ mod tests {
         let job = job(
             "a.nff -o b.RAS --arith i16f16 --size 3x5 --ras-depth 24 --stats json --pixels-per-ray 1 \
              --samples 3 --max-depth 4 --cut-off 0 --tree plain --tree-depth 7 --leaf-size 1 --arena 9 \
-             --link box --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
+             --link box --walk links --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
         );
         assert_eq!(job.output.format, Format::Ras);
         assert_eq!(job.ras_depth, RasDepth::TwentyFour);
@@ -218,6 +229,7 @@ mod tests {
                 leaf_size: NonZeroU32::new(1),
                 arena: NonZeroUsize::new(9),
                 link: Link::Box,
+                walk: Walk::Links,
             },
             size: Some((3, 5)),
             pixels_per_ray: PixelsPerRay::One,
@@ -290,6 +302,12 @@ mod tests {
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");
         }
+        let line = "a.scene --walk neighbour --tree bvh8";
+        let error = parse(line).unwrap().job().unwrap_err().to_string();
+        assert!(
+            error.contains("--walk neighbour is for --tree plain and --tree modified, not bvh8"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -35,8 +35,12 @@ pub struct TraceCounts {
     pub pixels: u64,
     /// Rays by kind.
     pub rays: Rays,
-    /// Node visits of rays, "voxel tests" in the thesis.
+    /// Node visits of rays.
     pub steps: u64,
+    /// Cells of an octree that rays cross from cell to cell, "voxel tests" in the thesis.
+    pub voxels: u64,
+    /// Nodes of the tree.
+    pub nodes: u64,
     /// Tests of a ray against a surface.
     pub tests: u64,
     /// Instructions, by [`cost::cost`].
@@ -103,7 +107,10 @@ impl<'a> Runs<'a> {
     /// Returns the defaults of `octray render` for a variant.
     fn settings(&self, scene_variant: &SceneVariant) -> RenderSettings {
         RenderSettings {
-            tree: TreeSettings::of(scene_variant.tree),
+            tree: TreeSettings {
+                walk: scene_variant.walk,
+                ..TreeSettings::of(scene_variant.tree)
+            },
             size: self.size.map(|size| scene_variant.resized(size)),
             pixels_per_ray: scene_variant.pixels_per_ray,
             ..RenderSettings::DEFAULT
@@ -118,6 +125,8 @@ impl TraceCounts {
             pixels: traced.picture.levels().len() as u64,
             rays: Rays::of(counters),
             steps: counters.steps(),
+            voxels: counters.voxels(),
+            nodes: traced.tree.nodes,
             tests: counters.tests(),
             instructions: cost::cost(counters),
             seconds: traced.render.as_secs_f64(),

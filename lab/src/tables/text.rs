@@ -144,8 +144,11 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// Formats a non-negative number with commas and `decimals` decimals.
+/// Formats a non-negative number with commas and `decimals` decimals; what there is not as nothing.
 fn number(value: f64, decimals: usize) -> String {
+    if value.is_nan() {
+        return String::new();
+    }
     let text = format!("{value:.decimals$}");
     let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
     whole
@@ -161,7 +164,7 @@ mod tests {
     fn numbers_have_commas_and_decimals() {
         assert_eq!(number(1234.56, 1), "1,234.6");
         assert_eq!(number(1234.56, 0), "1,235");
-        assert_eq!(number(f64::NAN, 1), "NaN");
+        assert_eq!(number(f64::NAN, 1), "");
         assert_eq!(plain(2.5), "2.5");
         assert_eq!(plain(12000.0), "12,000");
     }

@@ -1,21 +1,17 @@
-//! The tables of counts of traced scenes: I, II, IV, V, VI and VII.
+//! The tables of counts of traced scenes: II, IV, V, VI and VII.
 
 use super::agreement;
 use super::number::TableNumber;
 use super::runs::{Runs, TraceCounts};
-use super::subject::{FIGURES, FLAT, SceneVariant, Subject};
+use super::subject::{FIGURES, SceneVariant, Subject};
 use super::table::{Base, Draft, Quantity};
 use super::thesis::Thesis;
-use octray_prepare::{PixelsPerRay, TreeKind};
+use octray_prepare::PixelsPerRay;
 use octray_render::error::Error;
 
 /// The content of a column, and how it is computed.
 type Column = (Quantity, fn(&TraceCounts) -> f64);
 
-const VOXELS: Column = (Quantity::count("voxel tests"), |counts| counts.steps as f64);
-const SURFACES: Column = (Quantity::count("surface tests"), |counts| {
-    counts.tests as f64
-});
 const PIXELS: Column = (Quantity::count("pixels"), |counts| counts.pixels as f64);
 const PRIMARY: Column = (Quantity::count("primary rays"), |counts| {
     counts.rays.primary as f64
@@ -41,42 +37,6 @@ const MEASURED: Column = (
 /// The remark on every time.
 const TIME_IS: &str = "Time is in instructions of one processor, estimated from counted events, and the same every \
 time; the thesis's is in minutes. So ratios compare.";
-
-/// Makes table I.
-///
-/// # Errors
-/// Those of [`Runs::count`].
-pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
-    let mut variants = Vec::new();
-    for subject in [FLAT].into_iter().chain(FIGURES) {
-        for (tree, name) in [(TreeKind::Plain, "plain"), (TreeKind::Modified, "modified")] {
-            let scene_variant = SceneVariant {
-                tree,
-                ..SceneVariant::of(subject)
-            };
-            variants.push((scene_variant, name.to_owned()));
-        }
-    }
-    let mut draft = draft(runs, TableNumber::One, &[VOXELS, SURFACES], variants)?;
-    let fewer = |column: usize| {
-        let pairs = draft.lines.chunks(2);
-        pairs
-            .filter(|pair| pair[1].2[column] < pair[0].2[column])
-            .count()
-    };
-    let (voxels, surfaces, all) = (fewer(0), fewer(1), draft.lines.len() / 2);
-    draft.notes = vec![
-        format!(
-            "The thesis claims that the modified octree takes fewer tests. Here it takes fewer voxel tests in \
-             {voxels} of {all} scenes, and fewer surface tests in {surfaces}."
-        ),
-        "Both trees have the depth and the leaves that `octray render` gives them; the thesis's limits are not \
-         at hand, nor is the layout of its 2-D scene: `flat` is ours."
-            .into(),
-        "A voxel test is a visit of a node; inner nodes count.".into(),
-    ];
-    Ok(draft)
-}
 
 /// Makes table II.
 ///

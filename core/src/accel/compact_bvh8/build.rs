@@ -3,6 +3,7 @@
 use super::node::{CHILD, HEADER, Header, LEAF};
 use super::ray::REACH_BITS;
 use super::{COMPACT_MAX_DEPTH, CompactBvh8};
+use crate::accel::bound::BoundScalar;
 use crate::accel::boxes::{empty_box, union};
 use crate::accel::build::{BuildError, BuildOptions, BuildStats};
 use crate::accel::sah::{Group, split_into_groups};
@@ -41,10 +42,12 @@ impl<'a> CompactBvh8<'a> {
             *link = object;
             let shape = shapes.bounds(object);
             *bounds = Aabb {
-                low: shape.low.map(|x| x.to_grid().saturating_sub(S::GRID_SLACK)),
+                low: shape
+                    .low
+                    .map(|x| x.to_grid().saturating_sub(S::Bound::GRID_SLACK)),
                 high: shape
                     .high
-                    .map(|x| x.to_grid().saturating_add(S::GRID_SLACK)),
+                    .map(|x| x.to_grid().saturating_add(S::Bound::GRID_SLACK)),
             };
         }
         let mut stats = BuildStats {

@@ -1,19 +1,22 @@
 //! The builder of the octrees.
 
+use super::modified::{cluster_box, merge, parted, with_cluster};
 use super::node::{LEAF, OctreeNode};
 use super::overlap::overlaps;
-use super::{LinkBy, Octree, OctreeVariant};
+use super::{LinkBy, Octree, OctreeVariant, Walk};
 use crate::accel::bound::BoundScalar;
-use crate::accel::boxes::{centroid, empty_box, side_lengths, to_bounds, union};
+use crate::accel::boxes::{centroid, empty_box, to_bounds, union, widened};
 use crate::accel::build::{BuildError, BuildOptions, BuildStats, MAX_DEPTH};
 use crate::accel::scalar::AccelScalar;
 use crate::object::ObjectRef;
+use crate::ray::Aabb;
 use crate::shape::Shapes;
 use crate::vec3::Axis;
+use core::ops::Range;
 
 impl<'a, B: BoundScalar> Octree<'a, B> {
-    /// Builds the octree of all shapes in lent nodes and links. A leaf that should be split but
-    /// for which there is no room stays as it is.
+    /// Builds the octree of all shapes in lent nodes and links, to be walked in order. A leaf that
+    /// should be split but for which there is no room stays as it is.
     ///
     /// # Errors
     /// If there is not one node, or not one link for each object.
@@ -37,7 +40,7 @@ impl<'a, B: BoundScalar> Octree<'a, B> {
             bounds = union(bounds, to_bounds(shapes.bounds(object)));
         }
         *nodes.first_mut().ok_or(too_small)? = OctreeNode {
-            bounds,
+            bounds: widened(&bounds),
             first: 0,
             count: LEAF | count as u32,
         };
@@ -51,7 +54,14 @@ impl<'a, B: BoundScalar> Octree<'a, B> {
             variant,
             link,
         };
-        let mut stats = builder.grow(options.depth.clamp(1, MAX_DEPTH));
+        // Up to the maximum of objects, three and more are sorted into the root's octants once.
+        let sorted = variant == OctreeVariant::Modified && count <= options.leaf_size as usize;
+        let deepest = if sorted {
+            1
+        } else {
+            options.depth.clamp(1, MAX_DEPTH)
+        };
+        let mut stats = builder.grow(deepest);
         let (used_nodes, used_links) = (builder.used_nodes, builder.used_links);
         let nodes = nodes.get(..used_nodes).unwrap_or_default();
         let links = links.get_mut(..used_links).unwrap_or_default();
@@ -65,7 +75,13 @@ impl<'a, B: BoundScalar> Octree<'a, B> {
                 *last = last.marked_last(true);
             }
         }
-        Ok((Self { nodes, links }, stats))
+        let tree = Self {
+            nodes,
+            links,
+            neighbours: &[],
+            walk: Walk::Ordered,
+        };
+        Ok((tree, stats))
     }
 }
 
@@ -86,29 +102,27 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
         let mut stats = BuildStats::default();
         let (mut done, mut depth) = (0, 1);
         while done < self.used_nodes && depth <= deepest {
+            if self.variant == OctreeVariant::Modified {
+                stats.inner += self.cluster(done..self.used_nodes);
+            }
             let level_end = self.used_nodes;
             for node in done..level_end {
                 let Some(&cell) = self.nodes.get(node) else {
                     break;
                 };
-                if cell.count() <= self.leaf_size || !self.can_be_separated(&cell) {
-                    continue;
-                }
-                let cell = match self.variant {
-                    OctreeVariant::Plain => cell,
-                    OctreeVariant::Modified => self.shrink(cell),
+                let parts = match self.plan(&cell) {
+                    Plan::Leaf => continue,
+                    Plan::Part(parts) => self.append(&parts),
+                    Plan::Octants => self.split(&cell),
                 };
-                let (cell, split) = self.split(cell);
-                match split {
-                    Split::Done => {
-                        stats.inner += 1;
-                        stats.depth = depth;
-                    }
-                    Split::Futile => {}
-                    Split::Full => stats.unsplit += 1,
-                }
+                let Some(inner) = parts else {
+                    stats.unsplit += 1;
+                    continue;
+                };
+                stats.inner += 1;
+                stats.depth = depth;
                 if let Some(place) = self.nodes.get_mut(node) {
-                    *place = cell;
+                    (place.first, place.count) = inner;
                 }
             }
             done = level_end;
@@ -124,11 +138,33 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
         self.links.get(start..end).unwrap_or_default()
     }
 
-    /// Whether the objects of a cell are at more places than a leaf may have objects: if not, no
-    /// split separates them. Of large leaves only so many places are looked at.
-    fn can_be_separated(&self, cell: &OctreeNode<S::Bound>) -> bool {
+    /// What becomes of a leaf.
+    fn plan(&self, cell: &OctreeNode<S::Bound>) -> Plan<S::Bound> {
+        if !cell.is_leaf() {
+            return Plan::Leaf;
+        }
+        let most = match self.variant {
+            OctreeVariant::Plain => self.leaf_size,
+            OctreeVariant::Modified => {
+                if let &[a, b] = self.objects(cell) {
+                    let boxes = [a, b].map(|object| to_bounds(self.shapes.bounds(object)));
+                    return parted(cell, &boxes).map_or(Plan::Leaf, Plan::Part);
+                }
+                // Three objects and more are split for as far as the depth allows, unless they coincide.
+                1
+            }
+        };
+        if cell.count() <= most || !self.can_be_separated(cell, most) {
+            return Plan::Leaf;
+        }
+        Plan::Octants
+    }
+
+    /// Whether the objects of a cell are at more than `most` places: if not, no split separates them. Of
+    /// large leaves only so many places are looked at.
+    fn can_be_separated(&self, cell: &OctreeNode<S::Bound>, most: u32) -> bool {
         const PLACES: usize = 8;
-        let most = self.leaf_size.min(PLACES as u32) as usize;
+        let most = most.min(PLACES as u32) as usize;
         let mut places = [ObjectRef::default(); PLACES];
         let mut used = 0;
         for &object in self.objects(cell) {
@@ -153,71 +189,63 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
         }
     }
 
-    /// The cluster box: a cell whose objects' box, cut to the cell, fills less than half of it
-    /// becomes that box.
-    fn shrink(&self, mut cell: OctreeNode<S::Bound>) -> OctreeNode<S::Bound> {
-        let mut cluster = empty_box();
-        for &object in self.objects(&cell) {
-            cluster = union(cluster, to_bounds(self.shapes.bounds(object)));
+    /// Gives cells of two objects and more a cluster box where it fills less than half of them. Returns how many.
+    fn cluster(&mut self, level: Range<usize>) -> u32 {
+        let mut clusters = 0;
+        for node in level {
+            let Some(&cell) = self.nodes.get(node) else {
+                break;
+            };
+            let objects = self.objects(&cell);
+            if !cell.is_leaf() || objects.len() < 2 {
+                continue;
+            }
+            let bounds = objects.iter().fold(empty_box(), |all, object| {
+                union(all, to_bounds(self.shapes.bounds(*object)))
+            });
+            let Some(cluster) = cluster_box(&cell.bounds, &bounds) else {
+                continue;
+            };
+            let [around, inside] = with_cluster(cell, cluster, self.used_nodes);
+            if self.append(&[inside]).is_some()
+                && let Some(place) = self.nodes.get_mut(node)
+            {
+                *place = around;
+                clusters += 1;
+            }
         }
-        for axis in Axis::ALL {
-            cluster.low[axis] = cluster.low[axis].max(cell.bounds.low[axis]);
-            cluster.high[axis] = cluster.high[axis].min(cell.bounds.high[axis]);
-        }
-        type B<S> = <S as AccelScalar>::Bound;
-        let volume = B::<S>::volume(side_lengths(&cluster));
-        if B::<S>::add_areas(volume, volume) < B::<S>::volume(side_lengths(&cell.bounds)) {
-            cell.bounds = cluster;
-        }
-        cell
+        clusters
     }
 
-    /// Makes a leaf an inner node, if possible.
-    fn split(&mut self, cell: OctreeNode<S::Bound>) -> (OctreeNode<S::Bound>, Split) {
-        let centre = centroid(&cell.bounds);
-        let mut cells = [OctreeNode::EMPTY; 8];
-        for (k, octant) in cells.iter_mut().enumerate() {
-            octant.bounds = cell.bounds;
-            for (i, axis) in Axis::ALL.into_iter().enumerate() {
-                if k >> i & 1 == 0 {
-                    octant.bounds.high[axis] = centre[axis];
-                } else {
-                    octant.bounds.low[axis] = centre[axis];
-                }
-            }
-        }
+    /// The octants of a leaf, if there is room: the first and the count of its parts.
+    fn split(&mut self, cell: &OctreeNode<S::Bound>) -> Option<(u32, u32)> {
+        let mut cells = octants(&cell.bounds);
         let before = self.used_links;
-        for octant in &mut cells {
-            if !self.distribute(&cell, octant) {
-                self.used_links = before;
-                return (cell, Split::Full);
-            }
+        let mut room = cells.iter_mut().all(|octant| self.distribute(cell, octant));
+        let mut inner = None;
+        if room {
+            let parts = match self.variant {
+                OctreeVariant::Plain => 8,
+                OctreeVariant::Modified => merge(&mut cells),
+            };
+            inner = self.append(cells.get(..parts).unwrap_or_default());
+            room = inner.is_some();
         }
-        let mut parts = 8;
-        if self.variant == OctreeVariant::Modified {
-            let all = |octant: &&OctreeNode<S::Bound>| octant.count == cell.count;
-            let some = cells.iter().filter(|octant| octant.count() > 0);
-            if some.clone().all(|octant| all(&octant)) && some.count() > 1 {
-                self.used_links = before;
-                return (cell, Split::Futile);
-            }
-            parts = merge(&mut cells);
-        }
-        let end = self.used_nodes + parts;
-        let Some(room) = self.nodes.get_mut(self.used_nodes..end) else {
+        if !room {
             self.used_links = before;
-            return (cell, Split::Full);
-        };
-        for (place, octant) in room.iter_mut().zip(cells) {
-            *place = octant;
         }
-        let inner = OctreeNode {
-            first: self.used_nodes as u32,
-            count: parts as u32,
-            ..cell
-        };
+        inner
+    }
+
+    /// Appends the parts of a cell, if there is room: their first and their count.
+    fn append(&mut self, parts: &[OctreeNode<S::Bound>]) -> Option<(u32, u32)> {
+        let (start, end) = (self.used_nodes, self.used_nodes + parts.len());
+        let room = self.nodes.get_mut(start..end)?;
+        for (place, part) in room.iter_mut().zip(parts) {
+            *place = *part;
+        }
         self.used_nodes = end;
-        (inner, Split::Done)
+        Some((start as u32, parts.len() as u32))
     }
 
     /// Links into an octant those of its cell's objects that touch it. False if there is no room.
@@ -244,46 +272,29 @@ impl<S: AccelScalar> Builder<'_, '_, S> {
     }
 }
 
-enum Split {
-    Done,
-    /// Nothing is separated by it.
-    Futile,
-    /// There is no room.
-    Full,
+/// What becomes of a leaf.
+enum Plan<B> {
+    /// It stays one.
+    Leaf,
+    /// It is divided between its two objects.
+    Part([OctreeNode<B>; 2]),
+    /// It is split into octants.
+    Octants,
 }
 
-/// Merges, in each half of a cell in which one octant alone holds objects, that octant with the
-/// three empty ones; the first axis along which a half qualifies is taken. Returns how many cells
-/// are left; they come first.
-fn merge<B: BoundScalar>(cells: &mut [OctreeNode<B>; 8]) -> usize {
-    for bit in 0..3 {
-        let half =
-            |side: usize| (cells.iter().enumerate()).filter(move |(k, _)| k >> bit & 1 == side);
-        let lone = |side| half(side).filter(|(_, octant)| octant.count() > 0).count() <= 1;
-        if !lone(0) && !lone(1) {
-            continue;
-        }
-        let mut merged = [OctreeNode::EMPTY; 8];
-        let mut places = merged.iter_mut();
-        let mut parts = 0;
-        for side in 0..2 {
-            if lone(side) {
-                let holder = half(side).find(|(_, octant)| octant.count() > 0);
-                let all = half(side).fold(empty_box(), |a, (_, octant)| union(a, octant.bounds));
-                if let Some(place) = places.next() {
-                    *place = holder.map_or(OctreeNode::EMPTY, |(_, octant)| *octant);
-                    place.bounds = all;
-                    parts += 1;
-                }
+/// The octants of a cell, empty.
+fn octants<B: BoundScalar>(cell: &Aabb<B>) -> [OctreeNode<B>; 8] {
+    let centre = centroid(cell);
+    let mut cells = [OctreeNode::EMPTY; 8];
+    for (k, octant) in cells.iter_mut().enumerate() {
+        octant.bounds = *cell;
+        for (i, axis) in Axis::ALL.into_iter().enumerate() {
+            if k >> i & 1 == 0 {
+                octant.bounds.high[axis] = centre[axis];
             } else {
-                for (octant, place) in half(side).zip(places.by_ref()) {
-                    *place = *octant.1;
-                    parts += 1;
-                }
+                octant.bounds.low[axis] = centre[axis];
             }
         }
-        *cells = merged;
-        return parts;
     }
-    8
+    cells
 }

@@ -2,7 +2,7 @@
 //! and seldom "yes" elsewhere.
 
 use super::LinkBy;
-use crate::accel::boxes::to_bounds;
+use crate::accel::boxes::{to_bounds, widened};
 use crate::accel::scalar::AccelScalar;
 use crate::object::{ObjectKind, ObjectRef};
 use crate::ray::Aabb;
@@ -10,14 +10,16 @@ use crate::scalar::Scalar;
 use crate::shape::{Cone, Plane, Polygon, Shapes, Triangle, encloses};
 use crate::vec3::{Axis, Vec3, vec3};
 
-/// Whether `object` belongs into the cell. All tests take the cell wider by twice the scene's slack: once
-/// bounds how far a computed hit lies off its surface, and polygons have a rim of about that width.
+/// Whether `object` belongs into the cell. All tests take the cell wider by the margin within which a
+/// ray is known on the grid, and tests of surfaces by twice the scene's slack: once bounds how far a
+/// computed hit lies off its surface, and polygons have a rim of about that width.
 pub(super) fn overlaps<S: AccelScalar>(
     shapes: &Shapes<'_, S>,
     object: ObjectRef,
     cell: &Aabb<S::Bound>,
     link: LinkBy,
 ) -> bool {
+    let cell = &widened(cell);
     let bounds = to_bounds(shapes.bounds(object));
     let overlap = Axis::ALL
         .into_iter()

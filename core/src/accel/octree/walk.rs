@@ -1,7 +1,7 @@
 //! The walk of a ray through the octrees.
 
-use super::Octree;
 use super::node::OctreeNode;
+use super::{Octree, Walk};
 use crate::accel::bound::BoundScalar;
 use crate::accel::inv_direction::InvDirection;
 use crate::accel::query::{Query, accelerate};
@@ -12,13 +12,16 @@ use crate::observe::Observer;
 use crate::vec3::{Axis, Vec3};
 
 impl<B: BoundScalar> Octree<'_, B> {
-    /// Cells are visited in the order in which the ray enters them.
+    /// Cells are visited in the order in which the ray enters them; of a cell with a cluster box, that box.
     #[inline(always)]
     fn walk<S: AccelScalar<Bound = B>, O: Observer, const ANY: bool, const FEATURES: FeatureSet>(
         &self,
         query: &mut Query<'_, S, O, ANY, FEATURES>,
         stack: &mut TraversalStack<B>,
     ) {
+        if self.walk != Walk::Ordered {
+            return self.walk_cells(query);
+        }
         let origin = query.ray.origin.map(S::to_bound);
         let inv_direction = query.ray.direction.map(S::inv_direction);
         let Some(root) = self.nodes.first() else {
@@ -52,6 +55,14 @@ impl<B: BoundScalar> Octree<'_, B> {
             let parts = self.nodes.get(start..end).unwrap_or_default();
             for (part, place) in parts.iter().zip(node.first..) {
                 let limit = query.limit.to_bound();
+                let (part, place) = if part.is_cluster() {
+                    let Some(cluster) = self.nodes.get(part.first as usize) else {
+                        continue;
+                    };
+                    (cluster, part.first)
+                } else {
+                    (part, place)
+                };
                 let Some(entry) = entry_of(part, origin, inv_direction, limit) else {
                     continue;
                 };
