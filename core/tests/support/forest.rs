@@ -238,7 +238,8 @@ impl Wrong {
     /// Fails if anything was wrong, or too little was tried.
     pub(crate) fn report(&self, name: &str) {
         println!("{name}: {} rays, {} hits", self.rays, self.hits);
-        assert!(self.rays >= 1_000_000 && self.hits * 4 > self.rays);
+        let &Self { rays, hits, .. } = self;
+        assert!(rays >= 1_000_000 && hits * 8 > rays, "{hits} of {rays}");
         self.agree(name);
     }
 
