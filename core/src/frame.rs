@@ -48,7 +48,7 @@ pub struct FrameParams<S: Scalar> {
     pub camera: Camera<S>,
     /// The pixels that rays are sent through.
     pub active: Region,
-    /// The side of the square of pixels that one ray colours, 1 or 2.
+    /// The side of the square of pixels that one ray colours, 1 to [`Frame::MAX_BLOCK`].
     pub block: u32,
     /// Rays per pixel in each direction, 1 to 255.
     pub samples: u32,
@@ -66,6 +66,10 @@ pub struct FrameParams<S: Scalar> {
 
 impl<S: TraceScalar> Frame<S> {
     /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
+    /// The largest side of a square of pixels that one ray colours. The middle of such a square may lie outside of a small
+    /// picture; this far is within what [`Ratio`](crate::scalar::Ratio) and the camera allow.
+    pub const MAX_BLOCK: u32 = 8;
+
     ///
     /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (1 to 255 each
     /// way) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen but
@@ -87,7 +91,7 @@ impl<S: TraceScalar> Frame<S> {
                 columns: active.columns.start..active.columns.end.min(width),
                 rows: active.rows.start..active.rows.end.min(height),
             },
-            block: block.clamp(1, 2),
+            block: block.clamp(1, Self::MAX_BLOCK),
             samples,
             width,
             height,
@@ -145,9 +149,13 @@ impl<S: TraceScalar> Frame<S> {
         let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
         let rows = both(&region.rows, &self.0.active.rows);
         let columns = both(&region.columns, &self.0.active.columns);
-        // 1 or 2; another value, which only `from_params` can bring, must not loop for ever.
-        let block = self.0.block.clamp(1, 2);
-        let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
+        // Another value, which only `from_params` can bring, must not loop for ever.
+        let block = self.0.block.clamp(1, Self::MAX_BLOCK);
+        // Some cores have no division.
+        let first = |range: &Range<u32>| match block.is_power_of_two() {
+            true => (range.start + block - 1) & !(block - 1),
+            false => range.start.next_multiple_of(block),
+        };
         let mut row = first(&rows);
         while row < rows.end {
             let line = self.0.camera.row(self.sample_y(row, 0));
@@ -211,8 +219,7 @@ impl<S: TraceScalar> Frame<S> {
     #[inline(always)]
     fn sample_y(&self, row: u32, sub: u32) -> S {
         let height = self.0.samples * self.0.height;
-        let y = height as i32 - self.sample_centre(row, sub) as i32;
-        S::ratio(y, self.0.inv_height)
+        S::ratio(height as i32 - y as i32, self.0.inv_height)
     }
 
     /// The middle of a sample in units of a 2·samples-th of a pixel, from the upper left corner.

@@ -63,7 +63,7 @@ pub struct Strips {
     pub width: u32,
     /// Rows of the picture.
     pub height: u32,
-    /// The side of the square of pixels that one ray colours, 1 or 2: such squares are not cut.
+    /// The side of the square of pixels that one ray colours: such squares are not cut.
     pub block: u32,
 }
 
@@ -81,7 +81,8 @@ impl Strips {
         mut trace: impl FnMut(Range<u32>, &mut [Level]),
     ) -> Result<(), D::Error> {
         let (width, height) = (self.width, self.height);
-        let rows = (strip.len() as u32 / width.max(1)) & !(self.block - 1);
+        let rows = strip.len() as u32 / width.max(1);
+        let rows = rows - rows % self.block.max(1);
         if rows == 0 {
             return Ok(());
         }

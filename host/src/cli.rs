@@ -14,6 +14,7 @@ pub mod lab;
 #[path = "cli/no_lab.rs"]
 pub mod lab;
 mod render;
+mod reduction;
 pub mod value;
 
 pub use bake::BakeArgs;
@@ -23,6 +24,7 @@ pub use generate::GenerateArgs;
 pub use render::RenderArgs;
 
 use clap::{Parser, Subcommand};
+pub use reduction::ReductionArgs;
 use lab::LabCommand;
 
 /// Ray tracer that measures speed against accuracy

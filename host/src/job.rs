@@ -3,6 +3,7 @@
 use octray_prepare::RenderSettings;
 use octray_render::picture::{RasDepth, Target};
 use octray_render::schedule::Schedule;
+use octray_scenes::reduce::Reduction;
 use std::path::PathBuf;
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
@@ -11,6 +12,8 @@ use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 pub struct RenderJob {
     /// The scene file.
     pub scene: PathBuf,
+    /// What is left out of it.
+    pub reduction: Reduction,
     /// The picture to write.
     pub output: Target,
     /// Bits per pixel if the picture is a Sun rasterfile.

@@ -48,7 +48,7 @@ pub fn run(
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = scene_file::read(&job.scene)?;
+    let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
     let parse = begin.elapsed();
     interrupt.check()?;
     let progress = Bar::new("tracing");
@@ -75,6 +75,8 @@ fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) ->
     Stats {
         scene: job.scene.display().to_string(),
         facts: SceneCounts::of(scene),
+        lights: scene.lights.len(),
+        opaque: job.reduction.opaque,
         picture: job.output.path.display().to_string(),
         arith: job.settings.arith,
         format: traced.format,
@@ -109,6 +111,7 @@ mod tests {
     use octray_render::schedule::Schedule;
     use octray_render::scheduler::Policy;
     use octray_render::stats::Work;
+    use octray_scenes::reduce::Reduction;
     use std::fs;
     use std::path::Path;
 
@@ -117,6 +120,7 @@ mod tests {
         fs::write(&path, scene).unwrap();
         RenderJob {
             scene: path,
+            reduction: Reduction::default(),
             output: Target::new(folder.join(output)).unwrap(),
             ras_depth: RasDepth::Eight,
             settings: RenderSettings {

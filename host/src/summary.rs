@@ -14,7 +14,8 @@ impl fmt::Display for Summary<'_> {
         let stats = self.0;
         let (rays, seconds) = (&stats.rays, &stats.seconds);
         let scene = name::line(&stats.scene);
-        line(f, "scene", &format!("{scene}: {}", stats.facts))?;
+        let opaque = if stats.opaque { ", all opaque" } else { "" };
+        line(f, "scene", &format!("{scene}: {}{opaque}", stats.facts))?;
         let (width, height) = stats.size;
         let picture = format!(
             "{}: {width} x {height} pixels, hash {:016x}",

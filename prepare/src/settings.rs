@@ -20,7 +20,7 @@ pub struct RenderSettings {
     pub size: Option<(u32, u32)>,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
-    /// K for the mean of K × K rays per pixel, 1 to 64; 1 with four pixels per ray.
+    /// K for the mean of K × K rays per pixel, 1 to 64; 1 with several pixels per ray.
     pub samples: u32,
     /// Maximum number of bounces of a ray, 0 to [`RenderSettings::DEEPEST`].
     pub max_depth: u32,
@@ -292,18 +292,12 @@ pub enum PixelsPerRay {
 impl PixelsPerRay {
     /// Returns the number of pixels.
     pub const fn number(self) -> u32 {
-        match self {
-            Self::One => 1,
-            Self::Four => 4,
-        }
+        self.side() * self.side()
     }
 
     /// Returns the side of the square of pixels that one ray colours.
     pub const fn side(self) -> u32 {
-        match self {
-            Self::One => 1,
-            Self::Four => 2,
-        }
+        self as u32 + 1
     }
 }
 
@@ -316,6 +310,24 @@ mod tests {
         for kind in TreeKind::VARIANTS {
             let json = serde_json::to_value(kind).unwrap();
             assert_eq!(json, kind.name());
+    /// One ray per block of 3 × 3 pixels.
+    #[strum(serialize = "9")]
+    Nine,
+    /// One ray per block of 4 × 4 pixels.
+    #[strum(serialize = "16")]
+    Sixteen,
+    /// One ray per block of 5 × 5 pixels.
+    #[strum(serialize = "25")]
+    TwentyFive,
+    /// One ray per block of 6 × 6 pixels.
+    #[strum(serialize = "36")]
+    ThirtySix,
+    /// One ray per block of 7 × 7 pixels.
+    #[strum(serialize = "49")]
+    FortyNine,
+    /// One ray per block of 8 × 8 pixels.
+    #[strum(serialize = "64")]
+    SixtyFour,
         }
         let names: Vec<_> = TreeKind::VARIANTS.iter().map(|kind| kind.name()).collect();
         assert_eq!(names, ["bvh8", "compact-bvh8", "modified", "plain", "none"]);
@@ -339,6 +351,7 @@ mod tests {
         }
         assert_eq!(FirmwareTree::named("packed"), Some(FirmwareTree::COMPACT));
         assert_eq!(FirmwareTree::named("bvh8"), None);
+    use octray_core::frame::Frame;
         let kind =
             |objects| FirmwareTree::AUTO.kind_for(objects, Format::F32, Some("thumbv7m-none-eabi"));
         assert_eq!([kind(2), kind(3)], [TreeKind::None, TreeKind::CompactBvh8]);
@@ -352,3 +365,12 @@ mod tests {
         assert_eq!(leaf_size(Format::F32, Some("thumbv7m-none-eabi")), 1);
     }
 }
+    #[test]
+    fn pixels_per_ray_are_the_squares_that_their_names_say() {
+        for (side, pixels) in (1..).zip(PixelsPerRay::VARIANTS) {
+            assert_eq!((pixels.side(), pixels.number()), (side, side * side));
+            assert_eq!(pixels.name(), (side * side).to_string());
+        }
+        assert_eq!(PixelsPerRay::VARIANTS.len() as u32, Frame::<f32>::MAX_BLOCK);
+    }
+

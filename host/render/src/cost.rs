@@ -96,7 +96,7 @@ impl CostMap {
         let mut worker = renderer.worker(interrupt);
         let mut before = 0.0;
         let Region { columns, rows } = built.active.clone();
-        // Rays start where blocks do, which begin at even pixels.
+        // Rays start where blocks do.
         let starts = |start: u32, end| (start / block * block..end).step_by(cell as usize);
         let costs = starts(rows.start, rows.end).map(|row| {
             interrupt.check()?;

@@ -164,7 +164,7 @@ pub fn render_tiles(
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
     let (picture, region) = blank(renderer, holds_intensities)?;
-    let shape: TileSize = schedule.tile(&region);
+    let shape: TileSize = schedule.tile(&region, renderer.built().block);
     let parts: Vec<_> = shape.cut(&region).collect();
     let order = order(renderer, schedule.policy, &parts, interrupt)?;
     let count = parts.len();

@@ -69,7 +69,7 @@ pub struct Built {
     pub size: (u32, u32),
     /// The pixels that may show anything but background.
     pub active: Region,
-    /// The side of the square of pixels that one ray colours, 1 or 2.
+    /// The side of the square of pixels that one ray colours.
     pub block: u32,
     /// The background.
     pub background: (Level, Intensity),

@@ -2,6 +2,8 @@
 
 use crate::error::Error;
 use octray_scenes::model::Scene;
+use octray_scenes::name::Shown;
+use octray_scenes::reduce::Reduction;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -14,6 +16,14 @@ pub const NOTHING_IN_SIGHT: &str =
 /// # Errors
 /// [`Error::Scene`] with its mistakes drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
+    read_reduced(path, Reduction::default())
+}
+
+/// Reads a scene as [`read`] does, and leaves something out.
+///
+/// # Errors
+/// [`Error::Scene`] with its mistakes drawn, [`Error::Usage`] if it has fewer lights than asked for.
+pub fn read_reduced(path: &Path, reduction: Reduction) -> Result<Scene, Error> {
     let (scene, warnings) = octray_scenes::read_with_warnings(path)?;
     if !warnings.is_empty() {
         // A failure to print cannot be reported.
@@ -34,3 +44,6 @@ pub fn note(text: &str) {
     // A failure to print cannot be reported.
     let _ = writeln!(io::stderr().lock(), "note: {text}");
 }
+    reduction
+        .apply(&mut scene)
+        .map_err(|few| Error::Usage(format!("{}: {few}", Shown(path))))?;

@@ -13,7 +13,7 @@ pub struct Schedule {
     pub threads: NonZeroUsize,
     /// Which thread gets which tile.
     pub policy: Policy,
-    /// How large tiles are, rows and columns even with four pixels per ray; [`Schedule::tile`] if `None`.
+    /// How large tiles are, rows and columns multiples of the side of the pixels of a ray; [`Schedule::tile`] if `None`.
     pub tile: Option<TileSize>,
     /// Whether each thread stays on one core.
     pub pin: bool,
@@ -40,19 +40,30 @@ impl Schedule {
     /// The tiles of a picture where nothing else is asked for: squares of 16 x 16 pixels, unless there are many threads.
     pub const TILE: TileSize = TileSize::tile(NonZeroU32::new(SIDES[0].0).unwrap());
 
+    /// [`Schedule::TILE`] where one ray colours `block` × `block` pixels, which no tile may cut.
+    pub fn largest(block: u32) -> TileSize {
+        square(SIDES[0].0, block)
+    }
+
     /// The size of tiles: the one that was asked for, else squares of 16, 8 or 4 pixels, so that each thread gets a
-    /// good many.
-    pub fn tile(&self, region: &Region) -> TileSize {
+    /// good many; a little larger where squares of `block` pixels, which one ray colours, would be cut.
+    pub fn tile(&self, region: &Region, block: u32) -> TileSize {
         let fits = |(side, tiles): (u32, usize)| {
-            let shape = TileSize::tile(NonZeroU32::new(side)?);
+            let shape = square(side, block);
             (shape.count(region) / self.threads >= tiles).then_some(shape)
         };
         match self.tile {
             Some(shape) => shape,
-            None if self.threads.get() == 1 => Self::TILE,
-            None => SIDES.into_iter().find_map(fits).unwrap_or(Self::TILE),
+            None if self.threads.get() == 1 => Self::largest(block),
+            None => (SIDES.into_iter().find_map(fits)).unwrap_or_else(|| Self::largest(block)),
         }
     }
+}
+
+/// A square tile of at least this side that does not cut squares of `block` pixels.
+fn square(side: u32, block: u32) -> TileSize {
+    let side = side.next_multiple_of(block.max(1));
+    NonZeroU32::new(side).map_or(Schedule::TILE, TileSize::tile)
 }
 
 #[cfg(test)]
@@ -70,7 +81,7 @@ mod tests {
                 columns: 0..size,
                 rows: 0..size,
             };
-            work.tile(&region).rows.get()
+            work.tile(&region, 1).rows.get()
         };
         assert_eq!(side(1, 8), 16);
         assert_eq!(side(2, 512), 16);
@@ -89,6 +100,24 @@ mod tests {
             columns: 0..9,
             rows: 0..9,
         };
-        assert_eq!(work.tile(&region), strip);
+        assert_eq!(work.tile(&region, 1), strip);
+    }
+
+    #[test]
+    fn tiles_do_not_cut_the_pixels_of_a_ray() {
+        let region = Region {
+            columns: 0..200,
+            rows: 0..200,
+        };
+        for threads in [1, 2, 64, 1000] {
+            let work = Schedule {
+                threads: NonZeroUsize::new(threads).unwrap(),
+                ..Schedule::default()
+            };
+            for block in 1..=8 {
+                let side = work.tile(&region, block).rows.get();
+                assert!(side.is_multiple_of(block), "{side} {block}");
+            }
+        }
     }
 }

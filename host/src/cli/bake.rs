@@ -1,6 +1,6 @@
 //! Arguments of `octray bake`.
 
-use super::{files, value};
+use super::{ReductionArgs, files, value};
 use crate::bake::BakeJob;
 use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
@@ -60,6 +60,7 @@ impl BakeArgs {
             scene: self.scene,
             settings: RenderSettings {
                 arith: self.arith,
+            reduction: self.reduction.reduction(),
                 tree: TreeSettings {
                     leaf_size: self.leaf_size,
                     ..TreeSettings::default()

@@ -36,6 +36,9 @@ pub struct RenderArgs {
     stats: StatsFormat,
 
     /// Pixels that one ray colours
+    #[command(flatten)]
+    reduction: ReductionArgs,
+
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name(), help_heading = RAYS)]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel and average them
@@ -138,6 +141,7 @@ impl RenderArgs {
                     arena: self.arena,
                     link: self.link,
                 },
+            reduction: self.reduction.reduction(),
                 size: self.size,
                 pixels_per_ray: self.pixels_per_ray,
                 samples: self.samples,
@@ -150,7 +154,7 @@ impl RenderArgs {
                 tile: match (self.tile_rows, self.tile_columns) {
                     (None, None) => None,
                     (rows, columns) => Some(TileSize {
-                        rows: rows.unwrap_or(const { NonZeroU32::new(16).unwrap() }),
+                        rows: rows.unwrap_or(Schedule::largest(block).rows),
                         columns,
                     }),
                 },
@@ -179,6 +183,7 @@ mod tests {
         let words = std::iter::once("render").chain(line.split_whitespace());
         TestCommand::try_parse_from(words).map(|line| line.args)
     }
+    use octray_scenes::reduce::Reduction;
 
     fn job(line: &str) -> RenderJob {
         parse(line).unwrap().job().unwrap()
@@ -201,7 +206,8 @@ mod tests {
         let job = job(
             "a.nff -o b.RAS --arith i16f16 --size 3x5 --ras-depth 24 --stats json --pixels-per-ray 1 \
              --samples 3 --max-depth 4 --cut-off 0 --tree plain --tree-depth 7 --leaf-size 1 --arena 9 \
-             --link box --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
+             --lights 3 --opaque --link box --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
+        assert_eq!(job.reduction, Reduction::default());
         );
         assert_eq!(job.output.format, Format::Ras);
         assert_eq!(job.ras_depth, RasDepth::TwentyFour);
@@ -217,6 +223,11 @@ mod tests {
             },
             size: Some((3, 5)),
             pixels_per_ray: PixelsPerRay::One,
+        let reduction = Reduction {
+            lights: Some(3),
+            opaque: true,
+        };
+        assert_eq!(job.reduction, reduction);
             samples: 3,
             max_depth: 4,
             cut_off: 0.0,
@@ -252,6 +263,8 @@ mod tests {
             "--threads 0",
             "--threads 65537",
             "--tile-rows 0",
+        let tiles = shape("a.scene --tile-columns 9 --pixels-per-ray 9");
+        assert_eq!(tiles.as_deref(), Some("9 x 18 pixels"));
             "--tile-columns 0",
             "--samples 0",
             "--samples 65",
@@ -266,6 +279,8 @@ mod tests {
             "--arith f16",
             "--tree oak",
             "--schedule sometimes",
+            "--lights -1",
+            "--lights all",
             "--ras-depth 16",
             "-o a.bmp",
             "-o a",

@@ -134,9 +134,9 @@ impl Setting for RenderSettings {
         let pixels = |setting: &Self| (setting.pixels_per_ray, setting.samples);
         if others.iter().any(|other| pixels(other) != pixels(self)) {
             words.push(match pixels(self) {
-                (PixelsPerRay::Four, _) => "4px".into(),
                 (PixelsPerRay::One, samples) => format!("{samples}x{samples}"),
             });
+                (pixels, _) => format!("{}px", pixels.number()),
         }
         match words.is_empty() {
             true => self.arith.name().into(),
@@ -202,10 +202,11 @@ pub fn common(settings: &[RenderSettings]) -> String {
         && same(|setting| setting.pixels_per_ray.number().into())
     {
         words.push(match (first.pixels_per_ray, first.samples) {
-            (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
             (PixelsPerRay::One, 1) => "1 ray per pixel".into(),
             (PixelsPerRay::One, samples) => format!("{samples} x {samples} rays per pixel"),
         });
+            (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
+            (pixels, _) => format!("a ray for {} pixels", pixels.number()),
     }
     words
         .iter()

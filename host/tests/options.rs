@@ -1,0 +1,148 @@
+//! Options of `octray render` that change the picture: lights left out, opaque surfaces, pixels per ray.
+
+use octray_render::picture::{self, Picture};
+use serde_json::Value;
+use snapbox::cmd::Command;
+use snapbox::cmd::cargo_bin;
+use snapbox::str;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// A mirror, glass and a box under three lights.
+const SCENE: &str = "v 0 1 6 at 0 0.5 0 up 0 1 0 angle 40 resolution 30 40
+b 0.2 0.3 0.5
+l -3 5 4 0.5  l 4 3 2 0.4  l 0 9 0 0.3
+f 0.1 0.1 0.1  0.6 0.6 0.5  0 0 0  1 0.2 0
+p 4  -5 0 -5  5 0 -5  5 0 5  -5 0 5
+f 0 0 0  0.2 0.2 0.2  0.5 0.5 0.5  30 0.6 0
+s -0.8 0.6 0 0.6
+f 0 0 0  0.1 0.1 0.1  0.5 0.5 0.5  50 0.1 0.8 1.5
+s 0.7 0.5 0.8 0.5
+box 0.3 0.4 -1 0.8 0.8 0.8
+";
+
+fn folder() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.scene"), SCENE).unwrap();
+    folder
+}
+
+fn octray(folder: &Path, line: &str) -> Command {
+    Command::new(cargo_bin!("octray"))
+        .current_dir(folder)
+        .args(line.split_whitespace())
+}
+
+/// Returns the picture of the scene with these options, and the statistics.
+fn render(folder: &Path, options: &str) -> (Picture, Value) {
+    let line = format!("render a.scene -o a.ppm --stats json {options}");
+    let output = octray(folder, &line).output().unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{line}: {complaint}");
+    let stats = serde_json::from_slice(&output.stdout).unwrap();
+    (picture::read(&folder.join("a.ppm")).unwrap(), stats)
+}
+
+/// Returns the picture of another scene.
+fn rendered(text: &str) -> Picture {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.scene"), text).unwrap();
+    render(folder.path(), "").0
+}
+
+#[test]
+fn lights_that_are_left_out_are_as_if_they_were_not_in_the_file() {
+    let folder = folder();
+    let removed = [
+        SCENE.replace("l -3 5 4 0.5  l 4 3 2 0.4  l 0 9 0 0.3", ""),
+        SCENE.replace("  l 4 3 2 0.4  l 0 9 0 0.3", ""),
+        SCENE.replace("  l 0 9 0 0.3", ""),
+        SCENE.into(),
+    ];
+    for (lights, text) in removed.iter().enumerate() {
+        let (few, stats) = render(folder.path(), &format!("--lights {lights}"));
+        assert_eq!(few, rendered(text), "{lights} lights");
+        assert_eq!(stats["lights"], lights);
+        assert_eq!(stats["opaque"], false);
+        let shadow = stats["rays"]["shadow"].as_u64().unwrap();
+        assert_eq!(shadow == 0, lights == 0);
+    }
+}
+
+#[test]
+fn more_lights_than_there_are_is_bad_usage_that_tells_how_many_there_are() {
+    octray(folder().path(), "render a.scene --lights 4")
+        .assert()
+        .code(2)
+        .stdout_eq("")
+        .stderr_eq(str![[r#"
+error: a.scene: the first 4 lights are asked for, but the scene has 3
+
+For more information, try '--help'.
+
+"#]]);
+}
+
+#[test]
+fn an_opaque_scene_has_only_rays_of_the_camera_and_to_lights() {
+    let folder = folder();
+    let (opaque, stats) = render(folder.path(), "--opaque");
+    let text = SCENE
+        .replace("1 0.2 0\n", "1 0 0\n")
+        .replace("30 0.6 0\n", "30 0 0\n")
+        .replace("50 0.1 0.8 1.5\n", "50 0 0\n");
+    assert_eq!(opaque, rendered(&text));
+    assert_eq!(stats["opaque"], true);
+    let rays = &stats["rays"];
+    assert_eq!(
+        (&rays["reflected"], &rays["transmitted"]),
+        (&0.into(), &0.into())
+    );
+    let summary = octray(folder.path(), "render a.scene --opaque --lights 1");
+    summary.assert().success().stdout_eq(str![[r#"
+scene         a.scene: 2 spheres, 1 box, 1 polygon, 3 surfaces, 1 light, all opaque
+...
+"#]]);
+}
+
+#[test]
+fn a_ray_colours_any_square_of_pixels_up_to_eight_by_eight() {
+    let folder = folder();
+    for side in 1..=8_usize {
+        for threads in [1, 2] {
+            let options = format!("--pixels-per-ray {} --threads {threads}", side * side);
+            let (coarse, stats) = render(folder.path(), &options);
+            let rows: Vec<_> = coarse.rows().collect();
+            for (y, row) in rows.iter().enumerate() {
+                assert_eq!(*row, rows[y - y % side], "{side}");
+                for (x, level) in row.iter().enumerate() {
+                    assert_eq!(*level, row[x - x % side], "{side}");
+                }
+            }
+            // The whole picture shows something, so that each square has a ray.
+            let squares = 40_usize.div_ceil(side) * 30_usize.div_ceil(side);
+            let rays = stats["rays"]["primary"].as_u64().unwrap() as usize;
+            assert!(
+                rays <= squares && 2 * rays > squares,
+                "{side}: {rays} of {squares}"
+            );
+        }
+    }
+    for wrong in ["2", "81", "0", "nine"] {
+        let line = format!("render a.scene --pixels-per-ray {wrong}");
+        octray(folder.path(), &line).assert().code(2).stdout_eq("");
+    }
+    octray(
+        folder.path(),
+        "render a.scene --pixels-per-ray 9 --tile-rows 16",
+    )
+    .assert()
+    .code(2)
+    .stderr_eq(str![[r#"
+error: with --pixels-per-ray 9, --tile-rows and --tile-columns must be multiples of 3
+
+For more information, try '--help'.
+
+"#]]);
+}
