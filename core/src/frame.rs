@@ -3,7 +3,8 @@
 use crate::accel::Accelerator;
 use crate::camera::Camera;
 use crate::features::FeatureSet;
-use crate::observe::Observer;
+use crate::observe::RayObserver;
+use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::trace::{TraceScalar, Tracer, Workspace};
 use crate::vec3::{Vec3, vec3};
@@ -65,11 +66,11 @@ pub struct FrameParams<S: Scalar> {
 }
 
 impl<S: TraceScalar> Frame<S> {
-    /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
     /// The largest side of a square of pixels that one ray colours. The middle of such a square may lie outside of a small
     /// picture; this far is within what [`Ratio`](crate::scalar::Ratio) and the camera allow.
     pub const MAX_BLOCK: u32 = 8;
 
+    /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
     ///
     /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (1 to 255 each
     /// way) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen but
@@ -123,7 +124,7 @@ impl<S: TraceScalar> Frame<S> {
 
     /// Renders the active pixels of some rows, and passes each to `put` with its column, its row
     /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
-    pub fn render<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    pub fn render<A: Accelerator<S, FEATURES>, O: RayObserver<S>, const FEATURES: FeatureSet>(
         &self,
         rows: Range<u32>,
         tracer: &Tracer<'_, S, A, FEATURES>,
@@ -138,7 +139,11 @@ impl<S: TraceScalar> Frame<S> {
 
     /// The same for a rectangle of pixels; the shadow cache is not cleared first.
     /// Blocks that begin above the rectangle or to its left are not rendered.
-    pub fn render_region<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    pub fn render_region<
+        A: Accelerator<S, FEATURES>,
+        O: RayObserver<S>,
+        const FEATURES: FeatureSet,
+    >(
         &self,
         region: &Region,
         tracer: &Tracer<'_, S, A, FEATURES>,
@@ -180,7 +185,7 @@ impl<S: TraceScalar> Frame<S> {
 
     /// The mean colour of the samples of the block whose upper left pixel is given.
     #[inline(never)]
-    fn average<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    fn average<A: Accelerator<S, FEATURES>, O: RayObserver<S>, const FEATURES: FeatureSet>(
         &self,
         column: u32,
         row: u32,

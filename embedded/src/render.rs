@@ -8,7 +8,7 @@ use embedded_graphics_core::primitives::Rectangle;
 use octray_core::accel::Accelerator;
 use octray_core::features::FeatureSet;
 use octray_core::frame::Frame;
-use octray_core::observe::Observer;
+use octray_core::observe::RayObserver;
 use octray_core::trace::{TraceScalar, Tracer, Workspace};
 
 /// Red, green and blue in 8 bits.
@@ -34,7 +34,7 @@ pub fn render<S, A, O, D, const FEATURES: FeatureSet>(
 where
     S: TraceScalar,
     A: Accelerator<S, FEATURES>,
-    O: Observer,
+    O: RayObserver<S>,
     D: DrawTarget<Color: From<Rgb888>>,
 {
     let (width, height) = (frame.params().width, frame.params().height);

@@ -16,6 +16,7 @@ pub mod lab;
 mod render;
 mod reduction;
 pub mod value;
+mod trace;
 
 pub use bake::BakeArgs;
 pub use check::CheckArgs;
@@ -23,8 +24,9 @@ pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
 pub use render::RenderArgs;
 
-use clap::{Parser, Subcommand};
 pub use reduction::ReductionArgs;
+use clap::{Parser, Subcommand};
+pub use trace::TraceArgs;
 use lab::LabCommand;
 
 /// Ray tracer that measures speed against accuracy
@@ -43,6 +45,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Check scenes: print what is in them or what is wrong with them
     Check(CheckArgs),
+    /// Tell what the rays of one pixel meet
+    Trace(TraceArgs),
     /// Turn a scene into constant tables for a program without a file system
     Bake(BakeArgs),
     /// Generate a scene of any size

@@ -18,6 +18,7 @@ pub mod signal;
 pub mod stats;
 pub mod summary;
 
+pub mod trace;
 use clap::Parser;
 use cli::{Cli, Command};
 use octray_render::error::Error;
@@ -72,6 +73,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
             }
         }
         Command::Check(args) => check::run(&args.scenes, interrupt),
+        Command::Trace(args) => trace::run(&args.job()?, interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
         Command::Diff(args) => diff::run(&args.job()?, interrupt),

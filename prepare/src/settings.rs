@@ -264,7 +264,7 @@ pub enum Link {
     Box,
 }
 
-/// Pixels that one ray colours.
+/// Pixels that one ray colours: a square of up to 8 × 8.
 #[derive(
     Clone,
     Copy,

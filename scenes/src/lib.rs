@@ -37,7 +37,9 @@ mod word;
 pub mod write;
 
 pub use generate::generate;
-pub use parse::{ReadError, parse, parse_with_warnings, read, read_with_warnings};
+pub use parse::{
+    ReadError, object_lines, parse, parse_with_warnings, read, read_with_lines, read_with_warnings,
+};
 pub use write::write;
 
 /// The examples of the README are compiled and run.

@@ -26,6 +26,7 @@
 //! | [`tile`], [`scheduler`], [`threads`], [`framebuffer`] | the picture cut into tiles, assigned to threads, put together |
 //! | [`mod@render`], [`stats`] | a scene rendered, and what it cost |
 //! | [`cost`] | what parts of a picture cost, estimated from counted events |
+//! | [`pixel_trace`] | what the rays of one pixel meet |
 //! | [`picture`], [`output`] | pictures, and files that are written atomically |
 //! | [`scene_file`] | reads scenes for commands, telling their warnings |
 //! | [`metric`], [`heat`] | how far apart two pictures are, in numbers and as a picture |
@@ -46,6 +47,7 @@ mod owned;
 pub mod picture;
 mod prepared;
 pub mod progress;
+pub mod pixel_trace;
 pub mod render;
 pub mod renderer;
 pub mod scene_file;

@@ -3,6 +3,7 @@
 use crate::cache_padded::CachePadded;
 use crate::interrupt::Interrupt;
 use crate::owned::{AnyAccelerator, AnyStack, OwnedAccelerator};
+use crate::pixel_trace::{PixelTrace, Recorder};
 use crate::renderer::{Built, FirstHit, Renderer, Worker};
 use crate::tile::{Intensity, Level, Tile};
 use crate::watch::Watch;

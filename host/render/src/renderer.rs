@@ -7,6 +7,7 @@
 pub use crate::build::{PrepareError, prepare};
 
 use crate::interrupt::Interrupt;
+use crate::pixel_trace::PixelTrace;
 use crate::tile::{Intensity, Level, Tile};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;

@@ -25,10 +25,31 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 /// [`Error::Scene`] with its mistakes drawn, [`Error::Usage`] if it has fewer lights than asked for.
 pub fn read_reduced(path: &Path, reduction: Reduction) -> Result<Scene, Error> {
     let (scene, warnings) = octray_scenes::read_with_warnings(path)?;
+    reduce(scene, &warnings, path, reduction)
+}
+
+/// Reads a scene as [`read_reduced`] does, and tells on which lines its objects begin.
+///
+/// # Errors
+/// Those of [`read_reduced`].
+pub fn read_with_lines(path: &Path, reduction: Reduction) -> Result<(Scene, Vec<u32>), Error> {
+    let (scene, warnings, lines) = octray_scenes::read_with_lines(path)?;
+    Ok((reduce(scene, &warnings, path, reduction)?, lines()))
+}
+
+fn reduce(
+    mut scene: Scene,
+    warnings: &str,
+    path: &Path,
+    reduction: Reduction,
+) -> Result<Scene, Error> {
     if !warnings.is_empty() {
         // A failure to print cannot be reported.
         let _ = writeln!(io::stderr().lock(), "{warnings}\n");
     }
+    reduction
+        .apply(&mut scene)
+        .map_err(|few| Error::Usage(format!("{}: {few}", Shown(path))))?;
     if scene.objects.is_empty() {
         note("the scene has no objects: the picture is all background");
     } else if scene.lights.is_empty() {
@@ -44,6 +65,3 @@ pub fn note(text: &str) {
     // A failure to print cannot be reported.
     let _ = writeln!(io::stderr().lock(), "note: {text}");
 }
-    reduction
-        .apply(&mut scene)
-        .map_err(|few| Error::Usage(format!("{}: {few}", Shown(path))))?;

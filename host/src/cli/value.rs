@@ -97,6 +97,17 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
 }
 
+/// Parses `x,y`, the column and the row of a pixel.
+///
+/// # Errors
+/// States what was expected.
+pub fn pixel(text: &str) -> Result<(u32, u32), String> {
+    let number = |text: &str| text.trim().parse().ok();
+    text.split_once(',')
+        .and_then(|(column, row)| Some((number(column)?, number(row)?)))
+        .ok_or_else(|| "expected COLUMN,ROW such as 100,80, both counted from 0".into())
+}
+
 /// Parses a whole number of at least 1 into one of the `NonZero` types.
 pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
@@ -163,6 +174,15 @@ mod tests {
             "", "640", "0x5", "5x0", "65536x1", "1x2x3", "-1x2", "1.5x2", "ax2",
         ] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pixels() {
+        assert_eq!(pixel("0,65535"), Ok((0, 65535)));
+        assert_eq!(pixel("3, 4"), Ok((3, 4)));
+        for wrong in ["", "3", "3,", "3,4,5", "-1,2", "1.5,2", "3x4"] {
+            assert!(pixel(wrong).is_err(), "{wrong}");
         }
     }
 

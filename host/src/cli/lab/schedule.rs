@@ -41,7 +41,7 @@ pub struct ScheduleArgs {
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Arith,
-    /// Pixels that one ray colours; with 4, tiles with odd sides are left out
+    /// Pixels that one ray colours; tiles that would cut such a square are left out
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel
