@@ -5,6 +5,7 @@
 
 mod bake;
 mod check;
+mod convert;
 mod diff;
 pub mod files;
 mod generate;
@@ -13,20 +14,21 @@ pub mod lab;
 #[cfg(not(feature = "lab"))]
 #[path = "cli/no_lab.rs"]
 pub mod lab;
-mod render;
 mod reduction;
-pub mod value;
+mod render;
 mod trace;
+pub mod value;
 
 pub use bake::BakeArgs;
 pub use check::CheckArgs;
+pub use convert::ConvertArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
-pub use render::RenderArgs;
-
 pub use reduction::ReductionArgs;
-use clap::{Parser, Subcommand};
+pub use render::RenderArgs;
 pub use trace::TraceArgs;
+
+use clap::{Parser, Subcommand};
 use lab::LabCommand;
 
 /// Ray tracer that measures speed against accuracy
@@ -43,16 +45,18 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene to a picture
     Render(RenderArgs),
-    /// Check scenes: print what is in them or what is wrong with them
-    Check(CheckArgs),
     /// Tell what the rays of one pixel meet
     Trace(TraceArgs),
+    /// Check scenes: print what is in them or what is wrong with them
+    Check(CheckArgs),
     /// Turn a scene into constant tables for a program without a file system
     Bake(BakeArgs),
     /// Generate a scene of any size
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Write a picture in another format
+    Convert(ConvertArgs),
     /// A command of the laboratory
     #[command(flatten)]
     Lab(LabCommand),

@@ -18,7 +18,7 @@ use std::path::PathBuf;
 pub struct RenderArgs {
     /// The scene file
     scene: PathBuf,
-    /// The picture: .png, .ppm, .pfm (float intensities) or .ras (Sun rasterfile)
+    /// The picture: .png, .ppm, .pfm (float intensities), .ras (Sun rasterfile) or .int (intensities as text)
     /// [default: the scene's name with .png, in the current folder]
     #[arg(short, long, value_name = "FILE", value_parser = value::target(), verbatim_doc_comment)]
     output: Option<Target>,
