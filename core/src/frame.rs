@@ -72,7 +72,7 @@ impl<S: TraceScalar> Frame<S> {
 
     /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
     ///
-    /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (1 to 255 each
+    /// One ray colours `block` × `block` pixels (1 to [`Self::MAX_BLOCK`]), or `samples` × `samples` rays (1 to 255 each
     /// way) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen but
     /// background.
     pub fn new(
@@ -214,15 +214,29 @@ impl<S: TraceScalar> Frame<S> {
         )
     }
 
+    /// The ray through a place of the picture, in units of a 2·samples-th of a pixel from its upper left corner.
+    pub fn ray_at(&self, x: u32, y: u32) -> Ray<S> {
+        self.0.camera.row(self.y_at(y)).ray(self.x_at(x))
+    }
+
     #[inline(always)]
     fn sample_x(&self, column: u32, sub: u32) -> S {
-        let width = self.0.samples * self.0.width;
-        let x = self.sample_centre(column, sub) as i32 - width as i32;
-        S::ratio(x, self.0.inv_width)
+        self.x_at(self.sample_centre(column, sub))
     }
 
     #[inline(always)]
     fn sample_y(&self, row: u32, sub: u32) -> S {
+        self.y_at(self.sample_centre(row, sub))
+    }
+
+    #[inline(always)]
+    fn x_at(&self, x: u32) -> S {
+        let width = self.0.samples * self.0.width;
+        S::ratio(x as i32 - width as i32, self.0.inv_width)
+    }
+
+    #[inline(always)]
+    fn y_at(&self, y: u32) -> S {
         let height = self.0.samples * self.0.height;
         S::ratio(height as i32 - y as i32, self.0.inv_height)
     }

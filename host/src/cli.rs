@@ -8,6 +8,7 @@ mod check;
 mod convert;
 mod diff;
 pub mod files;
+mod frames;
 mod generate;
 #[cfg(feature = "lab")]
 pub mod lab;

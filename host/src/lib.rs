@@ -10,6 +10,7 @@ pub mod check;
 pub mod cli;
 pub mod convert;
 pub mod diff;
+pub mod frames;
 pub mod generate;
 pub mod job;
 #[cfg(feature = "mpi")]
@@ -70,7 +71,10 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
             match job.mpi {
                 #[cfg(feature = "mpi")]
                 true => ranks::render(&job, interrupt),
-                _ => render::run(&job, interrupt, render::trace),
+                _ => match &job.frames {
+                    Some(frames) => frames::run(&job, frames, interrupt),
+                    None => render::run(&job, interrupt, render::trace),
+                },
             }
         }
         Command::Trace(args) => trace::run(&args.job()?, interrupt),

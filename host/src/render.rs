@@ -10,9 +10,12 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use octray_render::render::{self, Rendering};
+use octray_render::renderer;
 use octray_render::scene_file;
 use octray_render::stats::Rays;
+use octray_render::wire;
 use octray_scenes::model::Scene;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Traces a job on threads.
@@ -25,6 +28,9 @@ pub fn trace(
     progress: &dyn Progress,
     interrupt: &Interrupt,
 ) -> Result<Rendering, Error> {
+    if job.wire {
+        return trace_wire(scene, job, progress, interrupt);
+    }
     let intensities = job.output.holds_intensities();
     render::render_with(
         scene,
@@ -34,6 +40,31 @@ pub fn trace(
         progress,
         interrupt,
     )
+}
+
+/// Draws a job as lines.
+fn trace_wire(
+    scene: &Scene,
+    job: &RenderJob,
+    progress: &dyn Progress,
+    interrupt: &Interrupt,
+) -> Result<Rendering, Error> {
+    let begin = Instant::now();
+    let renderer = renderer::prepare(scene, &job.settings)?;
+    let build = begin.elapsed();
+    let begin = Instant::now();
+    let drawn = wire::render(&*renderer, &job.work, progress, interrupt)?;
+    let (picture, counters, work, saturations) = drawn;
+    let times = (build, begin.elapsed());
+    let built = renderer.built();
+    Ok(render::rendering(
+        built,
+        picture,
+        counters,
+        saturations,
+        times,
+        work,
+    ))
 }
 
 /// Runs `job`; `trace` does the tracing.
@@ -60,7 +91,7 @@ pub fn run(
     }
     job.output
         .write(&traced.picture, job.ras_depth, interrupt)?;
-    let stats = stats(job, &scene, &traced, parse);
+    let stats = stats(job, &scene, &job.output.path, &traced, parse);
     output::write_report([&job.output.path], interrupt, |out| match job.stats {
         StatsFormat::None => Ok(()),
         StatsFormat::Text => write!(out, "{}", Summary(&stats)),
@@ -71,13 +102,20 @@ pub fn run(
     })
 }
 
-fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) -> Stats {
+/// Returns the statistics of a rendering into the picture `path`.
+pub(crate) fn stats(
+    job: &RenderJob,
+    scene: &Scene,
+    path: &Path,
+    traced: &Rendering,
+    parse: Duration,
+) -> Stats {
     Stats {
         scene: job.scene.display().to_string(),
         facts: SceneCounts::of(scene),
         lights: scene.lights.len(),
         opaque: job.reduction.opaque,
-        picture: job.output.path.display().to_string(),
+        picture: path.display().to_string(),
         arith: job.settings.arith,
         format: traced.format,
         scale: traced.scale,
@@ -113,7 +151,6 @@ mod tests {
     use octray_render::stats::Work;
     use octray_scenes::reduce::Reduction;
     use std::fs;
-    use std::path::Path;
 
     fn job(folder: &Path, scene: &str, output: &str) -> RenderJob {
         let path = folder.join("a.scene");
@@ -130,6 +167,8 @@ mod tests {
             },
             work: Schedule::default(),
             mpi: false,
+            wire: false,
+            frames: None,
             stats: StatsFormat::None,
         }
     }

@@ -183,7 +183,7 @@ fn idle(idle: &[f64]) -> String {
 }
 
 /// Formats seconds with three digits and a suitable unit.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.000_999_5 => format!("{:.0} us", s * 1e6),
         s if s < 0.099_95 => format!("{:.1} ms", s * 1e3),

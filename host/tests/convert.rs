@@ -169,7 +169,9 @@ fn wrong_use_and_damaged_pictures_are_told() {
     told(
         "convert a.png b",
         2,
-        &format!("error: a picture's name ends in one of .png, .ppm, .pfm, .ras, .int{usage}"),
+        &format!(
+            "error: a picture's name ends in one of .png, .apng, .ppm, .pfm, .ras, .int{usage}"
+        ),
     );
     told(
         "convert a.png ./a.png",

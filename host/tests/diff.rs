@@ -125,7 +125,7 @@ fn an_unknown_extension_is_bad_usage_with_a_list_of_the_known_ones() {
         .code(2)
         .stdout_eq("")
         .stderr_eq(str![[r#"
-error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .ppm, .pfm, .ras, .int
+error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .apng, .ppm, .pfm, .ras, .int
 
 For more information, try '--help'.
 

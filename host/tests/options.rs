@@ -1,5 +1,6 @@
 //! Options of `octray render` that change the picture: lights left out, opaque surfaces, pixels per ray.
 
+use octray_render::metric::Difference;
 use octray_render::picture::{self, Picture};
 use serde_json::Value;
 use snapbox::cmd::Command;
@@ -145,4 +146,80 @@ error: with --pixels-per-ray 9, --tile-rows and --tile-columns must be multiples
 For more information, try '--help'.
 
 "#]]);
+}
+
+#[test]
+fn adaptive_samples_do_not_depend_on_tiles_and_threads() {
+    let folder = folder();
+    let first = render(folder.path(), "--samples adaptive:3 --threads 1");
+    for options in [
+        "--threads 2",
+        "--threads 3 --tile-rows 1",
+        "--threads 2 --tile-rows 7 --tile-columns 5 --schedule work-stealing",
+        "--threads 2 --schedule cost-ordered --tree plain",
+    ] {
+        let (picture, stats) = render(folder.path(), &format!("--samples adaptive:3 {options}"));
+        assert_eq!(picture, first.0, "{options}");
+        assert_eq!(stats["rays"], first.1["rays"], "{options}");
+    }
+}
+
+#[test]
+fn adaptive_samples_come_as_near_as_uniform_ones_with_far_fewer_rays() {
+    let folder = folder();
+    let (converged, _) = render(folder.path(), "--samples 16 --arith f64");
+    let primary = |stats: &Value| stats["rays"]["primary"].as_u64().unwrap();
+    for (levels, samples) in [(1, 2), (2, 4)] {
+        let (uniform, all) = render(folder.path(), &format!("--samples {samples}"));
+        let (adaptive, few) = render(folder.path(), &format!("--samples adaptive:{levels}:4"));
+        let psnr = |picture| Difference::between(&converged, picture).unwrap().psnr();
+        let (ours, theirs) = (psnr(&adaptive), psnr(&uniform));
+        assert!(ours > theirs - 0.5, "{levels}: {ours} {theirs}");
+        assert!(primary(&few) * 5 < primary(&all) * 4, "{levels}");
+    }
+}
+
+#[test]
+fn where_nothing_differs_adaptive_samples_are_the_corners_of_the_pixels() {
+    let text = "v 0 0 10 view parallel resolution 6 8 b 0 0 0 f 1 1 1 0 0 0 0 0 0 1 0 0
+        p 4 -9 -9 0 9 -9 0 9 9 0 -9 9 0";
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.scene"), text).unwrap();
+    let (picture, stats) = render(folder.path(), "--samples adaptive:4");
+    assert_eq!(stats["rays"]["primary"], 9 * 7);
+    assert!(picture.levels().iter().all(|level| *level == [255; 3]));
+    // Three fifths of the third column of pixels are white.
+    let edge = text.replace(
+        "p 4 -9 -9 0 9 -9 0 9 9 0 -9 9 0",
+        "p 4 -1.6 -9 0 9 -9 0 9 9 0 -1.6 9 0",
+    );
+    fs::write(folder.path().join("a.scene"), edge).unwrap();
+    for levels in [1, 3] {
+        let (picture, _) = render(folder.path(), &format!("--samples adaptive:{levels}"));
+        for row in picture.rows() {
+            assert!(
+                row[2][0].abs_diff(153) <= 128 >> levels,
+                "{levels}: {row:?}"
+            );
+            assert!(row[..2].iter().all(|level| *level == [0; 3]));
+            assert!(row[3..].iter().all(|level| *level == [255; 3]));
+        }
+    }
+}
+
+#[test]
+fn wrong_samples_are_bad_usage() {
+    let folder = folder();
+    for options in [
+        "--samples adaptive:0",
+        "--samples adaptive:7",
+        "--samples adaptive:2:256",
+        "--samples adaptive --pixels-per-ray 4",
+        "--samples 65",
+    ] {
+        octray(folder.path(), &format!("render a.scene {options}"))
+            .assert()
+            .code(2)
+            .stdout_eq("");
+    }
 }

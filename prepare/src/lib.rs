@@ -33,7 +33,9 @@ pub mod tree;
 
 pub use format::{Arith, Format};
 pub use prepare::Prepare;
-pub use settings::{FirmwareTree, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+pub use settings::{
+    Adaptive, FirmwareTree, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings,
+};
 
 /// The examples of the README are compiled and run.
 #[cfg(doctest)]

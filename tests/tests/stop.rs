@@ -130,6 +130,9 @@ fn while_one_pixel_branches_for_ever() {
             &format!("render hall.scene -o a.png --threads 1 --size 1x1 {deep}"),
             &format!("render hall.scene -o a.png --threads 3 --tile-rows 65535 {deep}"),
             &format!("render hall.scene -o a.png --schedule cost-ordered {deep}"),
+            &format!("render hall.scene -o a.png --samples adaptive --threads 2 {deep}"),
+            &format!("render hall.scene -o a.png --frames 3 --orbit 9 {deep}"),
+            &format!("render hall.scene -o a.apng --frames 3 --orbit 9 {deep}"),
             "schedule hall.scene --csv a.csv --max-depth 64",
         ],
         false,
@@ -155,6 +158,9 @@ fn while_nobody_writes_to_a_pipe() {
         &[
             "check fifo",
             "render fifo -o a.png",
+            "render hall.scene --path fifo -o a.png",
+            "trace fifo -p 0,0",
+            "convert fifo a.png",
             "diff fifo fifo -o a.png",
             "bake --plan fifo hall.scene -o a.rs",
             "tables --thesis fifo -o a.txt",
@@ -170,6 +176,8 @@ fn while_a_scene_is_parsed_and_made_ready() {
         &[
             "check long.scene",
             "render long.scene -o a.png --tree plain --size 9x9",
+            "render long.scene -o a.png --wire --size 9x9",
+            "trace long.scene -p 0,0 -o a.svg",
             "render crowd.scene -o a.png --tree plain --tree-depth 24 --leaf-size 1 --arena 99999999",
             "bake long.scene -o a.rs",
         ],

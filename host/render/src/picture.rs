@@ -11,6 +11,7 @@ mod png;
 mod ppm;
 mod ras;
 
+pub use self::png::Animation;
 pub use dither::Dither;
 pub use format::{Format, Target, decode, read};
 pub use ras::RasDepth;

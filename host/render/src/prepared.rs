@@ -147,6 +147,44 @@ impl<S: Quantize> Worker for Tracing<'_, S> {
         })
     }
 
+    fn trace_pixel(&mut self, column: u32, row: u32) -> PixelTrace {
+        let ready = self.ready;
+        let block = ready.prepared.frame.block();
+        let (left, top) = (column / block * block, row / block * block);
+        let region = Region {
+            columns: left..left + block,
+            rows: top..top + block,
+        };
+        let (mut level_here, mut intensity_here) = ready.built.background;
+        self.shadow_cache.get().fill(None);
+        self.watch.recorder = Some(Box::new(Recorder::new(&self.watch.counters)));
+        self.render(&region, &mut |x, y, colour| {
+            if (x, y) == (column, row) {
+                (level_here, intensity_here) = (level(colour), intensity(colour));
+            }
+        });
+        let recorder = self.watch.recorder.take();
+        let scene = ready.prepared.scene.scene();
+        let id = |object| scene.attributes_of(object).id;
+        let unit = (-f64::from(ready.built.scale)).exp2();
+        PixelTrace {
+            rays: recorder.map_or_else(Vec::new, |recorder| recorder.into_rays(id, unit)),
+            level: level_here,
+            intensity: intensity_here,
+        }
+    }
+
+    fn trace_places(&mut self, places: &[(u32, u32)]) -> Vec<Intensity> {
+        let frame = &self.ready.prepared.frame;
+        self.shadow_cache.get().fill(None);
+        self.with(|tracer, workspace, watch| {
+            let places = places.iter();
+            let rays = places.map(|&(x, y)| frame.ray_at(x, y));
+            rays.map(|ray| intensity(tracer.radiance(ray, workspace, watch)))
+                .collect()
+        })
+    }
+
     fn counters(&self) -> &Counters {
         &self.watch.counters
     }

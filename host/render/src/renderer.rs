@@ -39,6 +39,14 @@ pub trait Worker: Send {
     /// samples of a block follow each other.
     fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>>;
 
+    /// Traces the rays that colour a pixel of the picture, and tells what each meets. The pixel is the picture's; what is
+    /// counted is as if it had been the first of its tile.
+    fn trace_pixel(&mut self, column: u32, row: u32) -> PixelTrace;
+
+    /// Traces rays through places of the picture, in units of a 2·samples-th of a pixel from its upper left corner. Returns
+    /// what they bring, clamped. What is counted does not depend on what was traced before.
+    fn trace_places(&mut self, places: &[(u32, u32)]) -> Vec<Intensity>;
+
     /// What was counted so far.
     fn counters(&self) -> &Counters;
 

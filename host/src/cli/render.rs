@@ -1,6 +1,8 @@
 //! Arguments of `octray render`.
 
-use super::{files, value};
+use super::frames::FramesArgs;
+use super::value::Samples;
+use super::{ReductionArgs, files, value};
 use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
@@ -35,15 +37,22 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FORM", value_parser = value::choice::<StatsFormat>(), default_value = StatsFormat::default().name())]
     stats: StatsFormat,
 
-    /// Pixels that one ray colours
+    /// Draw black lines where the object that is seen changes, instead of surfaces; only rays of the camera are traced
+    #[arg(long)]
+    wire: bool,
     #[command(flatten)]
     reduction: ReductionArgs,
 
+    #[command(flatten)]
+    frames: FramesArgs,
+
+    /// Pixels that one ray colours
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name(), help_heading = RAYS)]
     pixels_per_ray: PixelsPerRay,
-    /// Trace K x K rays per pixel and average them
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64), help_heading = RAYS)]
-    samples: u32,
+    /// Trace K x K rays per pixel and average them; or adaptive[:LEVELS[:THRESHOLD]]: one ray through each corner of a
+    /// pixel, and where corners differ by more than THRESHOLD (8) of 255 levels, quarter the pixel up to LEVELS (2) times
+    #[arg(long, value_name = "K", default_value = "1", value_parser = value::samples, help_heading = RAYS)]
+    samples: Samples,
     /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)), help_heading = RAYS)]
     max_depth: u32,
@@ -101,19 +110,36 @@ impl RenderArgs {
     /// [`Error::Usage`] when they contradict each other, or the picture would replace the scene.
     pub fn job(self) -> Result<RenderJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
-        if self.pixels_per_ray == PixelsPerRay::Four {
-            if self.samples > 1 {
-                return usage("--pixels-per-ray 4 and --samples above 1 contradict each other");
-            }
-            let sides = [self.tile_rows, self.tile_columns];
-            if sides.into_iter().flatten().any(|side| side.get() % 2 == 1) {
-                return usage(
-                    "with --pixels-per-ray 4, --tile-rows and --tile-columns must be even",
-                );
-            }
+        let (pixels, block) = (self.pixels_per_ray.number(), self.pixels_per_ray.side());
+        let (samples, adaptive) = match self.samples {
+            Samples::Uniform(samples) => (samples, None),
+            Samples::Adaptive(how) => (1, Some(how)),
+        };
+        if pixels > 1 && (samples > 1 || adaptive.is_some()) {
+            return usage("--pixels-per-ray and --samples, both above 1, contradict each other");
+        }
+        if self.wire && (samples > 1 || adaptive.is_some()) {
+            return usage("--wire draws lines of whole pixels: leave out --samples");
+        }
+        let sides = [self.tile_rows, self.tile_columns];
+        let cuts = |side: NonZeroU32| !side.get().is_multiple_of(block);
+        if sides.into_iter().flatten().any(cuts) {
+            return usage(&format!(
+                "with --pixels-per-ray {pixels}, --tile-rows and --tile-columns must be multiples of {block}"
+            ));
         }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
+            true if adaptive.is_some() => {
+                return usage(
+                    "with --samples adaptive, tiles share rays, which ranks cannot: leave out --mpi",
+                );
+            }
+            true if self.wire || self.frames.is_used() => {
+                return usage(
+                    "--mpi shares one picture of surfaces: leave out --wire, --frames and --path",
+                );
+            }
             true if self.threads.is_some_and(|threads| threads.get() > 1) => {
                 return usage("with --mpi, a rank uses one thread; start more ranks instead");
             }
@@ -127,9 +153,13 @@ impl RenderArgs {
                 Target::new(name).map_err(Error::Usage)?
             }
         };
-        files::distinct([&self.scene], [&output.path])?;
+        let (frames, orbit) = self.frames.job(&output)?;
+        if frames.is_none() {
+            files::distinct([&self.scene], [&output.path])?;
+        }
         Ok(RenderJob {
             scene: self.scene,
+            reduction: self.reduction.reduction(),
             output,
             ras_depth: self.ras_depth,
             settings: RenderSettings {
@@ -141,10 +171,11 @@ impl RenderArgs {
                     arena: self.arena,
                     link: self.link,
                 },
-            reduction: self.reduction.reduction(),
                 size: self.size,
+                orbit,
                 pixels_per_ray: self.pixels_per_ray,
-                samples: self.samples,
+                samples,
+                adaptive,
                 max_depth: self.max_depth,
                 cut_off: self.cut_off,
             },
@@ -161,6 +192,8 @@ impl RenderArgs {
                 pin: self.pin,
             },
             mpi: self.mpi,
+            wire: self.wire,
+            frames,
             stats: self.stats,
         })
     }
@@ -171,6 +204,7 @@ mod tests {
     use super::*;
     use clap::Parser;
     use octray_render::picture::Format;
+    use octray_scenes::reduce::Reduction;
     use std::path::Path;
 
     #[derive(Debug, Parser)]
@@ -183,7 +217,6 @@ mod tests {
         let words = std::iter::once("render").chain(line.split_whitespace());
         TestCommand::try_parse_from(words).map(|line| line.args)
     }
-    use octray_scenes::reduce::Reduction;
 
     fn job(line: &str) -> RenderJob {
         parse(line).unwrap().job().unwrap()
@@ -195,6 +228,7 @@ mod tests {
         assert_eq!(job.scene, Path::new("folder/figure-19.scene"));
         assert_eq!(job.output.path, Path::new("figure-19.png"));
         assert_eq!(job.output.format, Format::Png);
+        assert_eq!(job.reduction, Reduction::default());
         assert_eq!(job.ras_depth, RasDepth::Eight);
         assert_eq!(job.settings, RenderSettings::DEFAULT);
         assert_eq!(job.work, Schedule::default());
@@ -206,11 +240,15 @@ mod tests {
         let job = job(
             "a.nff -o b.RAS --arith i16f16 --size 3x5 --ras-depth 24 --stats json --pixels-per-ray 1 \
              --samples 3 --max-depth 4 --cut-off 0 --tree plain --tree-depth 7 --leaf-size 1 --arena 9 \
-             --lights 3 --opaque --link box --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
-        assert_eq!(job.reduction, Reduction::default());
+             --lights 3 --opaque --orbit 12.5 --link box --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
         );
         assert_eq!(job.output.format, Format::Ras);
         assert_eq!(job.ras_depth, RasDepth::TwentyFour);
+        let reduction = Reduction {
+            lights: Some(3),
+            opaque: true,
+        };
+        assert_eq!(job.reduction, reduction);
         assert_eq!(job.stats, StatsFormat::Json);
         let settings = RenderSettings {
             arith: Arith::I16F16,
@@ -222,13 +260,10 @@ mod tests {
                 link: Link::Box,
             },
             size: Some((3, 5)),
+            orbit: 12.5,
             pixels_per_ray: PixelsPerRay::One,
-        let reduction = Reduction {
-            lights: Some(3),
-            opaque: true,
-        };
-        assert_eq!(job.reduction, reduction);
             samples: 3,
+            adaptive: None,
             max_depth: 4,
             cut_off: 0.0,
         };
@@ -250,6 +285,8 @@ mod tests {
         let shape = |line| job(line).work.tile.map(|shape| shape.to_string());
         assert_eq!(shape("a.scene"), None);
         assert_eq!(shape("a.scene --tile-rows 9").as_deref(), Some("9 rows"));
+        let tiles = shape("a.scene --tile-columns 9 --pixels-per-ray 9");
+        assert_eq!(tiles.as_deref(), Some("9 x 18 pixels"));
         let tiles = shape("a.scene --tile-columns 9");
         assert_eq!(tiles.as_deref(), Some("9 x 16 pixels"));
         // The old names.
@@ -263,9 +300,9 @@ mod tests {
             "--threads 0",
             "--threads 65537",
             "--tile-rows 0",
-        let tiles = shape("a.scene --tile-columns 9 --pixels-per-ray 9");
-        assert_eq!(tiles.as_deref(), Some("9 x 18 pixels"));
             "--tile-columns 0",
+            "--lights -1",
+            "--lights all",
             "--samples 0",
             "--samples 65",
             "--size 0x1",
@@ -279,8 +316,6 @@ mod tests {
             "--arith f16",
             "--tree oak",
             "--schedule sometimes",
-            "--lights -1",
-            "--lights all",
             "--ras-depth 16",
             "-o a.bmp",
             "-o a",
@@ -292,8 +327,13 @@ mod tests {
 
     #[test]
     fn contradictions_are_bad_usage() {
-        for flags in ["--samples 2", "--tile-rows 3", "--tile-columns 5"] {
-            let line = format!("a.scene --pixels-per-ray 4 {flags}");
+        for flags in [
+            "4 --samples 2",
+            "4 --tile-rows 3",
+            "4 --tile-columns 5",
+            "9 --tile-rows 16",
+        ] {
+            let line = format!("a.scene --pixels-per-ray {flags}");
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");
         }

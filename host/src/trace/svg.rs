@@ -9,8 +9,8 @@ use std::fmt::{self, Write};
 pub(super) struct Drawing<'a>(pub(super) &'a Report);
 
 /// Sizes in pixels: a box, the gaps beside and below it, a light, the margin, and the lines above the tree.
-const WIDTH: f64 = 168.0;
-const TEXT: f64 = 54.0;
+const WIDTH: f64 = 176.0;
+const TEXT: f64 = 69.0;
 const GAP: f64 = 18.0;
 const FALL: f64 = 46.0;
 const LIGHT: f64 = 16.0;
@@ -162,16 +162,12 @@ fn draw(out: &mut String, placed: &Placed<'_>) -> Result<f64, fmt::Error> {
         y + 4.0,
         height - 8.0
     )?;
-    let distance = node.distance.map(|distance| format!(", at {distance:.2}"));
+    let distance = node.distance.map(|distance| format!("at {distance:.2}"));
     let lines = [
         format!("{}, weight {:.3}", node.kind, node.weight),
         node.meets(),
-        format!(
-            "{} nodes, {} tests{}",
-            node.cost.nodes,
-            node.cost.tests,
-            distance.unwrap_or_default()
-        ),
+        distance.unwrap_or_default(),
+        format!("nodes {}, tests {}", node.cost.nodes, node.cost.tests),
     ];
     for (i, text) in lines.iter().enumerate() {
         let (x, y) = (left + 20.0, y + 16.0 + 15.0 * i as f64);

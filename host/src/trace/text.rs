@@ -150,9 +150,11 @@ fn partings(f: &mut fmt::Formatter<'_>, report: &Report) -> fmt::Result {
     }
     for parting in partings {
         let path = parting.path.join(" > ");
-        let light = parting.light.map(|number| format!(" > light {number}"));
-        let [a, b] = (parting.found.clone()).map(|found| found.unwrap_or_else(|| "nothing".into()));
-        let light = light.unwrap_or_default();
+        let (light, missing) = match parting.light {
+            Some(number) => (format!(" > light {number}"), "behind the surface"),
+            None => (String::new(), "no ray"),
+        };
+        let [a, b] = (parting.found.clone()).map(|found| found.unwrap_or_else(|| missing.into()));
         writeln!(f, "they part at {path}{light}: {a} or {b}")?;
     }
     Ok(())

@@ -19,7 +19,7 @@ use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum Format {
-    /// Portable Network Graphics, 8-bit RGB.
+    /// Portable Network Graphics, 8-bit RGB; animated if there are several pictures.
     Png,
     /// Portable pixmap P6, 8-bit RGB.
     Ppm,
@@ -33,8 +33,9 @@ pub enum Format {
 
 impl Format {
     /// Every format with its extension.
-    pub const ALL: [(&str, Self); 5] = [
+    pub const ALL: [(&str, Self); 6] = [
         ("png", Self::Png),
+        ("apng", Self::Png),
         ("ppm", Self::Ppm),
         ("pfm", Self::Pfm),
         ("ras", Self::Ras),
@@ -266,7 +267,10 @@ mod tests {
         assert_eq!(Format::of(Path::new("a/b.PNG")), Ok(Format::Png));
         for name in ["a.bmp", "a", "png", "a.png/b"] {
             let text = Format::of(Path::new(name)).unwrap_err();
-            assert!(text.contains(".png, .ppm, .pfm, .ras, .int"), "{text}");
+            assert!(
+                text.contains(".png, .apng, .ppm, .pfm, .ras, .int"),
+                "{text}"
+            );
         }
     }
 
