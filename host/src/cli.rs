@@ -15,6 +15,7 @@ pub mod lab;
 #[cfg(not(feature = "lab"))]
 #[path = "cli/no_lab.rs"]
 pub mod lab;
+mod overlaps;
 mod reduction;
 mod render;
 mod trace;
@@ -25,6 +26,7 @@ pub use check::CheckArgs;
 pub use convert::ConvertArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use overlaps::OverlapsArgs;
 pub use reduction::ReductionArgs;
 pub use render::RenderArgs;
 pub use trace::TraceArgs;
@@ -50,6 +52,8 @@ pub enum Command {
     Trace(TraceArgs),
     /// Check scenes: print what is in them or what is wrong with them
     Check(CheckArgs),
+    /// List objects that pass through each other or are inside another
+    Overlaps(OverlapsArgs),
     /// Turn a scene into constant tables for a program without a file system
     Bake(BakeArgs),
     /// Generate a scene of any size

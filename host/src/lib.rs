@@ -1,6 +1,6 @@
 //! The command `octray`, as a library so that tests can call it.
 //!
-//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`trace`], [`check`], [`mod@bake`],
+//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`trace`], [`check`], [`overlaps`], [`mod@bake`],
 //! [`mod@generate`], [`diff`], [`convert`], or a command of the laboratory. [`main`] turns the result into an exit code. [`stats`]
 //! and [`summary`] are what `render` reports; `ranks`, with the feature `mpi`, distributes a rendering over the ranks
 //! of an MPI job.
@@ -13,6 +13,7 @@ pub mod diff;
 pub mod frames;
 pub mod generate;
 pub mod job;
+pub mod overlaps;
 #[cfg(feature = "mpi")]
 pub mod ranks;
 pub mod render;
@@ -79,6 +80,7 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
         }
         Command::Trace(args) => trace::run(&args.job()?, interrupt),
         Command::Check(args) => check::run(&args.scenes, interrupt),
+        Command::Overlaps(args) => overlaps::run(&args.job(), interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
         Command::Convert(args) => convert::run(&args.job()?, interrupt),

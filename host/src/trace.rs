@@ -4,8 +4,11 @@ mod node;
 mod pair;
 mod svg;
 mod text;
+mod through;
 
-use node::{Names, Node};
+pub(crate) use node::{Names, Object};
+
+use node::Node;
 use octray_prepare::{Arith, Format, RenderSettings};
 use octray_render::counts::thousands;
 use octray_render::error::Error;
@@ -36,6 +39,8 @@ pub struct TraceJob {
     pub settings: RenderSettings,
     /// One arithmetic, or two to be compared.
     pub ariths: Vec<Arith>,
+    /// Whether to go straight through all surfaces instead, and tell each.
+    pub through: bool,
     /// The form of the tree.
     pub format: TraceFormat,
     /// Where to write it; standard output if `None`.
@@ -97,7 +102,7 @@ pub fn run(job: &TraceJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(path) = &job.output {
         output::probe(path)?;
     }
-    let (scene, lines) = scene_file::read_with_lines(&job.scene, job.reduction)?;
+    let (mut scene, lines) = scene_file::read_with_lines(&job.scene, job.reduction)?;
     let size = job.settings.size_of(&scene);
     let (column, row) = job.pixel;
     if column >= size.0 || row >= size.1 {
@@ -108,6 +113,10 @@ pub fn run(job: &TraceJob, interrupt: &Interrupt) -> Result<(), Error> {
         )));
     }
     let names = Names::new(&scene, &lines);
+    if job.through {
+        scene.lights.clear();
+        scene.surfaces.fill(through::GLASS);
+    }
     let traces = (job.ariths.iter())
         .map(|&arith| trace(job, &scene, &names, arith, interrupt))
         .collect::<Result<Vec<_>, _>>()?;
@@ -121,6 +130,9 @@ pub fn run(job: &TraceJob, interrupt: &Interrupt) -> Result<(), Error> {
         },
         traces,
     };
+    if job.through {
+        return through::write(job, &report, interrupt);
+    }
     let write = |out: &mut dyn std::io::Write| match job.format {
         TraceFormat::Text => write!(out, "{}", text::Tree(&report)),
         TraceFormat::Svg => write!(out, "{}", svg::Drawing(&report)),
@@ -143,10 +155,11 @@ fn trace(
     arith: Arith,
     interrupt: &Interrupt,
 ) -> Result<Trace, Error> {
-    let settings = RenderSettings {
-        arith,
-        ..job.settings
+    let settings = match job.through {
+        false => job.settings,
+        true => through::settings(job.settings),
     };
+    let settings = RenderSettings { arith, ..settings };
     let renderer = renderer::prepare(scene, &settings)?;
     interrupt.check()?;
     let limited = interrupt.with_budget(MOST_RAYS);

@@ -25,6 +25,9 @@ pub struct TraceArgs {
     /// The arithmetic to trace in, or two to compare
     #[arg(long, value_name = "A[,B]", value_delimiter = ',', value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Vec<Arith>,
+    /// Tell all surfaces along the rays of the camera instead, as if they were not there, up to 65
+    #[arg(long)]
+    through: bool,
     /// The form of the tree [default: text; svg or json if the output's name ends so]
     #[arg(long, value_name = "FORM", value_parser = value::choice::<TraceFormat>())]
     format: Option<TraceFormat>,
@@ -79,6 +82,10 @@ impl TraceArgs {
             .and_then(|path| path.extension())
             .map(|extension| extension.to_string_lossy().to_lowercase());
         let named = extension.and_then(|extension| TraceFormat::named(&extension));
+        let format = self.format.or(named).unwrap_or_default();
+        if self.through && format == TraceFormat::Svg {
+            return Err(Error::Usage("--through is told as text or json".into()));
+        }
         Ok(TraceJob {
             scene: self.scene,
             reduction: self.reduction.reduction(),
@@ -96,7 +103,8 @@ impl TraceArgs {
                 ..RenderSettings::DEFAULT
             },
             ariths: self.arith,
-            format: self.format.or(named).unwrap_or_default(),
+            through: self.through,
+            format,
             output: self.output,
         })
     }

@@ -31,7 +31,7 @@ pub(super) struct Node {
 
 /// An object of the scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Object {
+pub(crate) struct Object {
     /// Its kind.
     kind: &'static str,
     /// Its number among all objects of the file, counted from 1.
@@ -118,11 +118,11 @@ impl From<Effort> for Cost {
 }
 
 /// What objects are called.
-pub(super) struct Names(Vec<Object>);
+pub(crate) struct Names(Vec<Object>);
 
 impl Names {
     /// The names of a scene's objects, which begin on these lines.
-    pub(super) fn new(scene: &Scene, lines: &[u32]) -> Self {
+    pub(crate) fn new(scene: &Scene, lines: &[u32]) -> Self {
         let objects = (1..).zip(scene.objects.iter().zip(lines));
         let name =
             |(number, (object, &line)): (u32, (&octray_scenes::model::Object, &u32))| Object {
@@ -140,7 +140,7 @@ impl Names {
     }
 
     /// The object of this place in the file, counted from 0.
-    pub(super) fn object(&self, id: u32) -> Object {
+    pub(crate) fn object(&self, id: u32) -> Object {
         self.0[id as usize]
     }
 
