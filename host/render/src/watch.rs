@@ -112,7 +112,7 @@ impl Observer for Watch {
     }
 }
 
-/// Tracing a picture takes no longer for the question whether to record: 0.1 % more instructions.
+/// Whether to record is asked a few times for a ray, not in the searches.
 impl<S: Quantize> RayObserver<S> for Watch {
     #[inline(always)]
     fn begins(&mut self, ray: &QueuedRay<S>) {

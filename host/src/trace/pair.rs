@@ -33,7 +33,7 @@ pub(super) fn lights<'a>(pair: [Option<&'a Node>; 2]) -> Vec<LightPair<'a>> {
 }
 
 /// The rays that follow in either tree, by kind.
-pub(super) fn followers<'a>(pair: [Option<&'a Node>; 2]) -> Vec<[Option<&'a Node>; 2]> {
+pub(super) fn followers(pair: [Option<&Node>; 2]) -> Vec<[Option<&Node>; 2]> {
     let find = |kind| pair.map(|node| node.and_then(|node| node.follower(kind)));
     let pairs = FOLLOWERS.map(find).into_iter();
     pairs.filter(|[a, b]| a.is_some() || b.is_some()).collect()
