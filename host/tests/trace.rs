@@ -67,10 +67,10 @@ fn add(ray: &Value, sums: &mut [u64; 7]) {
 }
 
 /// Adds up the light of a ray and of what follows, weighted.
-fn light(ray: &Value, refract: f64) -> f64 {
+fn light(ray: &Value) -> f64 {
     let own = ray["weight"].as_f64().unwrap() * ray["light"][0].as_f64().unwrap();
     let rays = ray["rays"].as_array().unwrap().iter();
-    own + rays.map(|ray| light(ray, refract)).sum::<f64>()
+    own + rays.map(light).sum::<f64>()
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn every_pixel_has_the_colour_and_the_rays_of_the_picture() {
                 }
                 if options.is_empty() {
                     let rays = trace["rays"].as_array().unwrap();
-                    let sum: f64 = rays.iter().map(|ray| light(ray, 0.0)).sum();
+                    let sum: f64 = rays.iter().map(light).sum();
                     let found = trace["intensity"][0].as_f64().unwrap();
                     assert!(
                         (sum.min(1.0) - found).abs() < 1e-6,

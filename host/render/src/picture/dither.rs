@@ -126,7 +126,7 @@ mod tests {
     fn diffusion_keeps_the_mean_of_every_small_square_of_a_ramp() {
         let levels: Vec<Level> = (0..256 * 64).map(|i| [(i % 256) as u8; 3]).collect();
         let ramp = Picture::from_levels(256, 64, levels).unwrap();
-        let bits = Dither::Diffusion.bits(&ramp);
+        let bits = &Dither::Diffusion.bits(&ramp);
         for left in (8..240).step_by(8) {
             let square = (24..32).flat_map(|y| (left..left + 8).map(move |x| bits[y * 256 + x]));
             let found = white(&square.collect::<Vec<_>>()) / 64.0;

@@ -48,6 +48,7 @@ impl<'a> Animation<'a> {
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Fast);
         encoder.set_animated(count, 0)?;
+        encoder.validate_sequence(true);
         encoder.set_frame_delay(1, per_second)?;
         let writer = encoder.write_header()?;
         Ok(Self { writer, size })
