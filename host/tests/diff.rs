@@ -106,7 +106,7 @@ fn an_unreadable_file_is_named_with_the_cause() {
         ("cut.ppm", "the picture is cut short"),
         (
             "text.png",
-            "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
+            "not a picture known here (PNG, PPM P6, PFM, Sun rasterfile or intensity file)",
         ),
         ("empty.png", "the file is empty"),
         (".", "is a directory"),
