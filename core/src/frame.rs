@@ -3,7 +3,8 @@
 use crate::accel::Accelerator;
 use crate::camera::Camera;
 use crate::features::FeatureSet;
-use crate::observe::Observer;
+use crate::observe::RayObserver;
+use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::trace::{TraceScalar, Tracer, Workspace};
 use crate::vec3::{Vec3, vec3};
@@ -53,7 +54,7 @@ pub struct FrameParams<S: Scalar> {
     pub camera: Camera<S>,
     /// The pixels that rays are sent through.
     pub active: Region,
-    /// The side of the square of pixels that one ray colours, 1 or 2.
+    /// The side of the square of pixels that one ray colours, 1 to [`Frame::MAX_BLOCK`].
     pub block: u32,
     /// Rays per pixel in each direction, 1 to 255.
     pub samples: u32,
@@ -70,9 +71,13 @@ pub struct FrameParams<S: Scalar> {
 }
 
 impl<S: TraceScalar> Frame<S> {
+    /// The largest side of a square of pixels that one ray colours. The middle of such a square may lie outside of a small
+    /// picture; this far is within what [`Ratio`](crate::scalar::Ratio) and the camera allow.
+    pub const MAX_BLOCK: u32 = 8;
+
     /// A picture of `width` × `height` pixels, each 1 to 65535 (clamped).
     ///
-    /// One ray colours `block` × `block` pixels (1 or 2), or `samples` × `samples` rays (1 to 255 each
+    /// One ray colours `block` × `block` pixels (1 to [`Self::MAX_BLOCK`]), or `samples` × `samples` rays (1 to 255 each
     /// way) are averaged in it. No ray is sent outside of `active`, where nothing is to be seen but
     /// background.
     pub fn new(
@@ -92,7 +97,7 @@ impl<S: TraceScalar> Frame<S> {
                 columns: active.columns.start..active.columns.end.min(width),
                 rows: active.rows.start..active.rows.end.min(height),
             },
-            block: block.clamp(1, 2),
+            block: block.clamp(1, Self::MAX_BLOCK),
             samples,
             width,
             height,
@@ -124,7 +129,7 @@ impl<S: TraceScalar> Frame<S> {
 
     /// Renders the active pixels of some rows, and passes each to `put` with its column, its row
     /// and its colour, not clamped. Blocks that begin above the rows are not rendered.
-    pub fn render<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    pub fn render<A: Accelerator<S, FEATURES>, O: RayObserver<S>, const FEATURES: FeatureSet>(
         &self,
         rows: Range<u32>,
         tracer: &Tracer<'_, S, A, FEATURES>,
@@ -137,7 +142,11 @@ impl<S: TraceScalar> Frame<S> {
     }
 
     /// The same for a rectangle of pixels. Blocks that begin above the rectangle or to its left are not rendered.
-    pub fn render_region<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    pub fn render_region<
+        A: Accelerator<S, FEATURES>,
+        O: RayObserver<S>,
+        const FEATURES: FeatureSet,
+    >(
         &self,
         region: &Region,
         tracer: &Tracer<'_, S, A, FEATURES>,
@@ -148,9 +157,13 @@ impl<S: TraceScalar> Frame<S> {
         let both = |a: &Range<u32>, b: &Range<u32>| a.start.max(b.start)..a.end.min(b.end);
         let rows = both(&region.rows, &self.0.active.rows);
         let columns = both(&region.columns, &self.0.active.columns);
-        // 1 or 2; another value, which only `from_params` can bring, must not loop for ever.
-        let block = self.0.block.clamp(1, 2);
-        let first = |range: &Range<u32>| (range.start + block - 1) & !(block - 1);
+        // Another value, which only `from_params` can bring, must not loop for ever.
+        let block = self.0.block.clamp(1, Self::MAX_BLOCK);
+        // Some cores have no division.
+        let first = |range: &Range<u32>| match block.is_power_of_two() {
+            true => (range.start + block - 1) & !(block - 1),
+            false => range.start.next_multiple_of(block),
+        };
         let mut row = first(&rows);
         while row < rows.end {
             let line = self.0.camera.row(self.sample_y(row, 0));
@@ -178,7 +191,7 @@ impl<S: TraceScalar> Frame<S> {
 
     /// The mean colour of the samples of the block whose upper left pixel is given.
     #[inline(never)]
-    fn average<A: Accelerator<S, FEATURES>, O: Observer, const FEATURES: FeatureSet>(
+    fn average<A: Accelerator<S, FEATURES>, O: RayObserver<S>, const FEATURES: FeatureSet>(
         &self,
         column: u32,
         row: u32,
@@ -207,18 +220,31 @@ impl<S: TraceScalar> Frame<S> {
         )
     }
 
+    /// The ray through a place of the picture, in units of a 2·samples-th of a pixel from its upper left corner.
+    pub fn ray_at(&self, x: u32, y: u32) -> Ray<S> {
+        self.0.camera.row(self.y_at(y)).ray(self.x_at(x))
+    }
+
     #[inline(always)]
     fn sample_x(&self, column: u32, sub: u32) -> S {
-        let width = self.0.samples * self.0.width;
-        let x = self.sample_centre(column, sub) as i32 - width as i32;
-        S::ratio(x, self.0.inv_width)
+        self.x_at(self.sample_centre(column, sub))
     }
 
     #[inline(always)]
     fn sample_y(&self, row: u32, sub: u32) -> S {
+        self.y_at(self.sample_centre(row, sub))
+    }
+
+    #[inline(always)]
+    fn x_at(&self, x: u32) -> S {
+        let width = self.0.samples * self.0.width;
+        S::ratio(x as i32 - width as i32, self.0.inv_width)
+    }
+
+    #[inline(always)]
+    fn y_at(&self, y: u32) -> S {
         let height = self.0.samples * self.0.height;
-        let y = height as i32 - self.sample_centre(row, sub) as i32;
-        S::ratio(y, self.0.inv_height)
+        S::ratio(height as i32 - y as i32, self.0.inv_height)
     }
 
     /// The middle of a sample in units of a 2·samples-th of a pixel, from the upper left corner.

@@ -1,6 +1,9 @@
 //! Events of tracing: rays by kind, steps, tests, and what found no room.
 
-use crate::object::ObjectKind;
+use crate::accel::Hit;
+use crate::object::{ObjectKind, ObjectRef};
+use crate::trace::QueuedRay;
+use crate::vec3::Vec3;
 
 /// Why a ray is traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +90,31 @@ pub trait Observer {
 }
 
 impl Observer for () {}
+
+/// An observer that is also told of each ray what it meets and brings. All methods are empty by default.
+///
+/// Rays come depth first: a ray follows from the last one before it whose depth is one less.
+pub trait RayObserver<S>: Observer {
+    /// This ray, no shadow ray, is traced next.
+    #[inline(always)]
+    fn begins(&mut self, _: &QueuedRay<S>) {}
+    /// It meets this first. Not called for a ray that meets nothing.
+    #[inline(always)]
+    fn meets(&mut self, _: Hit<S>) {}
+    /// The surface there faces the light of this index; what blocks it is given, if anything does. Lights behind the
+    /// surface are not told.
+    #[inline(always)]
+    fn looked_for_light(&mut self, _: usize, _blocker: Option<ObjectRef>) {}
+    /// A ray that would follow is not traced: because of this weight, or of its depth.
+    #[inline(always)]
+    fn not_followed(&mut self, _: RayKind, _weight: Option<S>) {}
+    /// The ray is done: this much light comes along it from the first surface or the background, not weighted and
+    /// without what follows.
+    #[inline(always)]
+    fn brings(&mut self, _: Vec3<S>) {}
+}
+
+impl<S> RayObserver<S> for () {}
 
 /// Counts all events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -214,6 +242,8 @@ impl Counters {
         }
     }
 }
+
+impl<S> RayObserver<S> for Counters {}
 
 impl Observer for Counters {
     #[inline(always)]

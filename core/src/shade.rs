@@ -3,7 +3,7 @@
 use crate::accel::Accelerator;
 use crate::features::{self, FeatureSet};
 use crate::object::ObjectRef;
-use crate::observe::{Observer, RayKind};
+use crate::observe::{RayKind, RayObserver};
 use crate::ray::{Departure, Ray};
 use crate::scalar::{Exponent, Intensity, Scalar, Tolerance};
 use crate::scene::{Scene, Surface};
@@ -88,7 +88,7 @@ impl<S: Scalar> Point<S> {
 pub(crate) fn direct_light<
     S: Tolerance + Intensity,
     A: Accelerator<S, FEATURES>,
-    O: Observer,
+    O: RayObserver<S>,
     const FEATURES: FeatureSet,
 >(
     scene: &Scene<'_, S, FEATURES>,
@@ -136,6 +136,7 @@ pub(crate) fn direct_light<
         });
         let blocker =
             still.or_else(|| accelerator.any_hit(scene, &ray, distance, end, stack, observer));
+        observer.looked_for_light(i, blocker);
         if blocker.is_some() {
             observer.blocked();
             if let Some(place) = shadow_cache.get_mut(i) {

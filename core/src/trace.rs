@@ -7,7 +7,7 @@ pub use workspace::{QueuedRay, Workspace, WorkspaceTooSmall, required_rays};
 use crate::accel::{AccelScalar, Accelerator, Hit};
 use crate::features::{self, ALL_FEATURES, FeatureSet};
 use crate::object::ObjectRef;
-use crate::observe::{Observer, RayKind};
+use crate::observe::{Observer, RayKind, RayObserver};
 use crate::ray::Ray;
 use crate::scalar::{Intensity, Ratio, Scalar, Tolerance};
 use crate::scene::{Attributes, Scene, Surface};
@@ -95,7 +95,7 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
     }
 
     /// The light that comes along a ray of the camera, not clamped (fixed point: at most 1).
-    pub fn radiance<O: Observer>(
+    pub fn radiance<O: RayObserver<S>>(
         &self,
         ray: Ray<S>,
         workspace: &mut Workspace<'_, S, A::Stack>,
@@ -117,13 +117,16 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
                 return sum;
             }
             observer.ray(next.kind);
+            observer.begins(&next);
             let light = match self.nearest(&next.ray, workspace, observer) {
                 None => self.scene.background_along(next.ray.direction),
                 Some(hit) => {
                     observer.hit(next.kind);
+                    observer.meets(hit);
                     self.shade_hit(&next, hit, workspace, &mut waiting, observer)
                 }
             };
+            observer.brings(light);
             // The weight of a camera's ray is 1.
             let light = if next.depth == 0 {
                 light
@@ -158,7 +161,7 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
     /// The light of the surface itself, less the share that a transparent one transmits. The reflected
     /// and the transmitted ray are queued.
     #[inline(always)]
-    fn shade_hit<O: Observer>(
+    fn shade_hit<O: RayObserver<S>>(
         &self,
         from: &QueuedRay<S>,
         hit: Hit<S>,
@@ -235,10 +238,12 @@ impl<S: TraceScalar, A: Accelerator<S, FEATURES>, const FEATURES: FeatureSet>
         );
         let mut follow = |share: S, direction: Vec3<S>, kind: RayKind| {
             if from.depth >= self.max_depth {
+                observer.not_followed(kind, None);
                 return;
             }
             let weight = from.weight * share;
             if weight < self.cut_off {
+                observer.not_followed(kind, Some(weight));
                 return;
             }
             if let Some(place) = workspace.rays.get_mut(*waiting) {

@@ -8,7 +8,7 @@ use embedded_graphics_core::primitives::Rectangle;
 use octray_core::accel::Accelerator;
 use octray_core::features::FeatureSet;
 use octray_core::frame::Frame;
-use octray_core::observe::Observer;
+use octray_core::observe::RayObserver;
 use octray_core::trace::{TraceScalar, Tracer, Workspace};
 
 /// Red, green and blue in 8 bits.
@@ -34,7 +34,7 @@ pub fn render<S, A, O, D, const FEATURES: FeatureSet>(
 where
     S: TraceScalar,
     A: Accelerator<S, FEATURES>,
-    O: Observer,
+    O: RayObserver<S>,
     D: DrawTarget<Color: From<Rgb888>>,
 {
     let (width, height) = (frame.params().width, frame.params().height);
@@ -63,7 +63,7 @@ pub struct Strips {
     pub width: u32,
     /// Rows of the picture.
     pub height: u32,
-    /// The side of the square of pixels that one ray colours, 1 or 2: such squares are not cut.
+    /// The side of the square of pixels that one ray colours: such squares are not cut.
     pub block: u32,
 }
 
@@ -81,7 +81,8 @@ impl Strips {
         mut trace: impl FnMut(Range<u32>, &mut [Level]),
     ) -> Result<(), D::Error> {
         let (width, height) = (self.width, self.height);
-        let rows = (strip.len() as u32 / width.max(1)) & !(self.block - 1);
+        let rows = strip.len() as u32 / width.max(1);
+        let rows = rows - rows % self.block.max(1);
         if rows == 0 {
             return Ok(());
         }

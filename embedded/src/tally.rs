@@ -1,7 +1,7 @@
 //! Counts of steps and tests in 32 bits, for cores on which 64 cost more.
 
 use octray_core::object::ObjectKind;
-use octray_core::observe::Observer;
+use octray_core::observe::{Observer, RayObserver};
 
 /// Counts; they wrap at 2³².
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -11,6 +11,8 @@ pub struct Tally {
     /// Object tests.
     pub tests: u32,
 }
+
+impl<S> RayObserver<S> for Tally {}
 
 impl Observer for Tally {
     #[inline(always)]

@@ -9,6 +9,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::scene_file;
+use octray_scenes::reduce::Reduction;
 #[cfg(feature = "lab")]
 use octray_scenes::{input, name::Shown};
 use std::io::{self, Write};
@@ -23,6 +24,8 @@ const MOST_PLAN: u64 = 1 << 16;
 pub struct BakeJob {
     /// The scene file.
     pub scene: PathBuf,
+    /// What is left out of it.
+    pub reduction: Reduction,
     /// What to render. Of the tree's settings only the leaf size is used.
     pub settings: RenderSettings,
     /// The tree.
@@ -45,7 +48,7 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
     let read = |path| read_plan(path).map(|plan| (path, plan));
     let plan = job.plan.as_deref().map(read).transpose()?;
-    let scene = scene_file::read(&job.scene)?;
+    let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
     interrupt.check()?;
     let name = job
         .scene

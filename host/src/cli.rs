@@ -5,22 +5,31 @@
 
 mod bake;
 mod check;
+mod convert;
 mod diff;
 pub mod files;
+mod frames;
 mod generate;
 #[cfg(feature = "lab")]
 pub mod lab;
 #[cfg(not(feature = "lab"))]
 #[path = "cli/no_lab.rs"]
 pub mod lab;
+mod overlaps;
+mod reduction;
 mod render;
+mod trace;
 pub mod value;
 
 pub use bake::BakeArgs;
 pub use check::CheckArgs;
+pub use convert::ConvertArgs;
 pub use diff::DiffArgs;
 pub use generate::GenerateArgs;
+pub use overlaps::OverlapsArgs;
+pub use reduction::ReductionArgs;
 pub use render::RenderArgs;
+pub use trace::TraceArgs;
 
 use clap::{Parser, Subcommand};
 use lab::LabCommand;
@@ -39,14 +48,20 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene to a picture
     Render(RenderArgs),
+    /// Tell what the rays of one pixel meet
+    Trace(TraceArgs),
     /// Check scenes: print what is in them or what is wrong with them
     Check(CheckArgs),
+    /// List objects that pass through each other or are inside another
+    Overlaps(OverlapsArgs),
     /// Turn a scene into constant tables for a program without a file system
     Bake(BakeArgs),
     /// Generate a scene of any size
     Generate(GenerateArgs),
     /// Compare two pictures
     Diff(DiffArgs),
+    /// Write a picture in another format
+    Convert(ConvertArgs),
     /// A command of the laboratory
     #[command(flatten)]
     Lab(LabCommand),

@@ -1,22 +1,26 @@
 //! The command `octray`, as a library so that tests can call it.
 //!
-//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`check`], [`mod@bake`],
-//! [`mod@generate`], [`diff`], or a command of the laboratory. [`main`] turns the result into an exit code. [`stats`]
+//! [`cli`] turns raw arguments into a checked job, and a command runs the job: [`render`], [`trace`], [`check`], [`overlaps`], [`mod@bake`],
+//! [`mod@generate`], [`diff`], [`convert`], or a command of the laboratory. [`main`] turns the result into an exit code. [`stats`]
 //! and [`summary`] are what `render` reports; `ranks`, with the feature `mpi`, distributes a rendering over the ranks
 //! of an MPI job.
 
 pub mod bake;
 pub mod check;
 pub mod cli;
+pub mod convert;
 pub mod diff;
+pub mod frames;
 pub mod generate;
 pub mod job;
+pub mod overlaps;
 #[cfg(feature = "mpi")]
 pub mod ranks;
 pub mod render;
 pub mod signal;
 pub mod stats;
 pub mod summary;
+pub mod trace;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -68,12 +72,18 @@ fn run(command: Command, interrupt: &Interrupt) -> Result<(), Error> {
             match job.mpi {
                 #[cfg(feature = "mpi")]
                 true => ranks::render(&job, interrupt),
-                _ => render::run(&job, interrupt, render::trace),
+                _ => match &job.frames {
+                    Some(frames) => frames::run(&job, frames, interrupt),
+                    None => render::run(&job, interrupt, render::trace),
+                },
             }
         }
+        Command::Trace(args) => trace::run(&args.job()?, interrupt),
         Command::Check(args) => check::run(&args.scenes, interrupt),
+        Command::Overlaps(args) => overlaps::run(&args.job(), interrupt),
         Command::Bake(args) => bake::run(&args.job()?, interrupt),
         Command::Generate(args) => generate::run(&args.job(), interrupt),
+        Command::Convert(args) => convert::run(&args.job()?, interrupt),
         Command::Diff(args) => diff::run(&args.job()?, interrupt),
         Command::Lab(command) => command.run(interrupt),
     }

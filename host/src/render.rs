@@ -11,9 +11,12 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use octray_render::render::{self, Rendering};
+use octray_render::renderer;
 use octray_render::scene_file;
 use octray_render::stats::Rays;
+use octray_render::wire;
 use octray_scenes::model::Scene;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Traces a job on threads.
@@ -26,6 +29,9 @@ pub fn trace(
     progress: &dyn Progress,
     interrupt: &Interrupt,
 ) -> Result<Rendering, Error> {
+    if job.wire {
+        return trace_wire(scene, job, progress, interrupt);
+    }
     let intensities = job.output.holds_intensities();
     render::render_with(
         scene,
@@ -35,6 +41,31 @@ pub fn trace(
         progress,
         interrupt,
     )
+}
+
+/// Draws a job as lines.
+fn trace_wire(
+    scene: &Scene,
+    job: &RenderJob,
+    progress: &dyn Progress,
+    interrupt: &Interrupt,
+) -> Result<Rendering, Error> {
+    let begin = Instant::now();
+    let renderer = renderer::prepare(scene, &job.settings)?;
+    let build = begin.elapsed();
+    let begin = Instant::now();
+    let drawn = wire::render(&*renderer, &job.work, progress, interrupt)?;
+    let (picture, counters, work, saturations) = drawn;
+    let times = (build, begin.elapsed());
+    let built = renderer.built();
+    Ok(render::rendering(
+        built,
+        picture,
+        counters,
+        saturations,
+        times,
+        work,
+    ))
 }
 
 /// Runs `job`; `trace` does the tracing.
@@ -49,7 +80,7 @@ pub fn run(
 ) -> Result<(), Error> {
     output::probe(&job.output.path)?;
     let begin = Instant::now();
-    let scene = scene_file::read(&job.scene)?;
+    let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
     let parse = begin.elapsed();
     interrupt.check()?;
     let progress = Bar::new("tracing");
@@ -61,7 +92,7 @@ pub fn run(
     }
     job.output
         .write(&traced.picture, job.ras_depth, interrupt)?;
-    let stats = stats(job, &scene, &traced, parse);
+    let stats = stats(job, &scene, &job.output.path, &traced, parse);
     output::write_report([&job.output.path], interrupt, |out| match job.stats {
         StatsFormat::None => Ok(()),
         StatsFormat::Text => write!(out, "{}", Summary(&stats)),
@@ -72,11 +103,20 @@ pub fn run(
     })
 }
 
-fn stats(job: &RenderJob, scene: &Scene, traced: &Rendering, parse: Duration) -> Stats {
+/// Returns the statistics of a rendering into the picture `path`.
+pub(crate) fn stats(
+    job: &RenderJob,
+    scene: &Scene,
+    path: &Path,
+    traced: &Rendering,
+    parse: Duration,
+) -> Stats {
     Stats {
         scene: job.scene.display().to_string(),
         facts: SceneCounts::of(scene),
-        picture: job.output.path.display().to_string(),
+        lights: scene.lights.len(),
+        opaque: job.reduction.opaque,
+        picture: path.display().to_string(),
         arith: job.settings.arith,
         format: traced.format,
         scale: traced.scale,
@@ -111,14 +151,15 @@ mod tests {
     use octray_render::schedule::Schedule;
     use octray_render::scheduler::Policy;
     use octray_render::stats::Work;
+    use octray_scenes::reduce::Reduction;
     use std::fs;
-    use std::path::Path;
 
     fn job(folder: &Path, scene: &str, output: &str) -> RenderJob {
         let path = folder.join("a.scene");
         fs::write(&path, scene).unwrap();
         RenderJob {
             scene: path,
+            reduction: Reduction::default(),
             output: Target::new(folder.join(output)).unwrap(),
             ras_depth: RasDepth::Eight,
             settings: RenderSettings {
@@ -128,6 +169,8 @@ mod tests {
             },
             work: Schedule::default(),
             mpi: false,
+            wire: false,
+            frames: None,
             stats: StatsFormat::None,
         }
     }

@@ -29,6 +29,10 @@ pub struct Stats {
     /// What is too fine for the format, if anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub too_fine: Option<String>,
+    /// Lights that shine: fewer than the file's if some were left out.
+    pub lights: usize,
+    /// Whether surfaces were kept from reflecting and refracting.
+    pub opaque: bool,
     /// Columns and rows of the picture.
     pub size: (u32, u32),
     /// Rays by kind.
@@ -119,6 +123,8 @@ pub(crate) mod tests {
             format: Format::I12F20,
             scale: -3,
             too_fine: None,
+            lights: 2,
+            opaque: false,
             size: (512, 256),
             rays: Rays {
                 primary: 131_072,
@@ -165,7 +171,7 @@ pub(crate) mod tests {
     fn the_json_object_has_the_documented_fields_in_order() {
         let text = serde_json::to_string(&example()).unwrap();
         let expected = concat!(
-            r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","size":[512,256],"#,
+            r#"{"scene":"scenes/figure-19.scene","arith":"auto","format":"i12f20","lights":2,"opaque":false,"size":[512,256],"#,
             r#""rays":{"primary":131072,"shadow":200000,"blocked":34567,"reflected":50001,"transmitted":0},"#,
             r#""steps":1234567,"tests":765432,"hits":180000,"saturations":5,"dropped":{"rays":2,"nodes":3,"uncached":4},"#,
             r#""tree":{"kind":"bvh8","nodes":11,"links":63,"depth":4,"unsplit":0},"#,

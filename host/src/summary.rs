@@ -14,7 +14,8 @@ impl fmt::Display for Summary<'_> {
         let stats = self.0;
         let (rays, seconds) = (&stats.rays, &stats.seconds);
         let scene = name::line(&stats.scene);
-        line(f, "scene", &format!("{scene}: {}", stats.facts))?;
+        let opaque = if stats.opaque { ", all opaque" } else { "" };
+        line(f, "scene", &format!("{scene}: {}{opaque}", stats.facts))?;
         let (width, height) = stats.size;
         let picture = format!(
             "{}: {width} x {height} pixels, hash {:016x}",
@@ -185,7 +186,7 @@ fn idle(idle: &[f64]) -> String {
 }
 
 /// Formats seconds with three digits and a suitable unit.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.000_999_5 => format!("{:.0} us", s * 1e6),
         s if s < 0.099_95 => format!("{:.1} ms", s * 1e3),

@@ -159,14 +159,30 @@ mod results {
         assert_eq!(files(), before, "{line}");
     }
 
+    fn no_input_is_replaced(cases: &[(&str, &str, &str)]) {
+        for (line, result, input) in cases {
+            let why = format!(
+                "the result {result} would replace {input}, which is read: name another file"
+            );
+            refused(line, &why);
+        }
+    }
+
     #[test]
     fn inputs_are_not_replaced() {
-        for (line, result, input) in [
+        no_input_is_replaced(&[
             ("render a.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
             ("bake a.scene -o ./a.scene", "./a.scene", "a.scene"),
-            ("bake a.scene --plan plan -o ./plan", "./plan", "plan"),
             ("diff a.ppm b.ppm -o ./a.ppm", "./a.ppm", "a.ppm"),
             ("diff a.ppm ./b.ppm -o b.ppm", "b.ppm", "./b.ppm"),
+        ]);
+    }
+
+    #[cfg(feature = "lab")]
+    #[test]
+    fn inputs_of_the_laboratory_are_not_replaced() {
+        no_input_is_replaced(&[
+            ("bake a.scene --plan plan -o ./plan", "./plan", "plan"),
             ("schedule a.scene --csv ./a.scene", "./a.scene", "a.scene"),
             ("measure a.scene --json ./a.scene", "./a.scene", "a.scene"),
             ("plan a.scene --emit ./a.scene", "./a.scene", "a.scene"),
@@ -182,14 +198,10 @@ mod results {
                 "./a.scene",
                 "a.scene",
             ),
-        ] {
-            let why = format!(
-                "the result {result} would replace {input}, which is read: name another file"
-            );
-            refused(line, &why);
-        }
+        ]);
     }
 
+    #[cfg(feature = "lab")]
     #[test]
     fn no_result_replaces_another() {
         for line in [

@@ -106,7 +106,7 @@ fn an_unreadable_file_is_named_with_the_cause() {
         ("cut.ppm", "the picture is cut short"),
         (
             "text.png",
-            "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
+            "not a picture known here (PNG, PPM P6, PFM, Sun rasterfile or intensity file)",
         ),
         ("empty.png", "the file is empty"),
         (".", "is a directory"),
@@ -125,7 +125,7 @@ fn an_unknown_extension_is_bad_usage_with_a_list_of_the_known_ones() {
         .code(2)
         .stdout_eq("")
         .stderr_eq(str![[r#"
-error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .ppm, .pfm, .ras
+error: invalid value 'heat.bmp' for '--output <FILE>': '.bmp' is no picture format known here; the known ones are .png, .apng, .ppm, .pfm, .ras, .int
 
 For more information, try '--help'.
 

@@ -16,6 +16,7 @@ use octray_render::renderer;
 use octray_render::scene_file;
 use octray_render::scheduler::{Policy, Scheduler};
 use octray_render::tile::TileSize;
+use octray_scenes::reduce::Reduction;
 use serde::Serialize;
 use std::io;
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -26,6 +27,8 @@ use std::path::PathBuf;
 pub struct ScheduleJob {
     /// The scene file.
     pub scene: PathBuf,
+    /// What is left out of it.
+    pub reduction: Reduction,
     /// Numbers of processors.
     pub processors: Vec<NonZeroUsize>,
     /// Sizes of tiles.
@@ -72,7 +75,7 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
     for path in job.csv.iter().chain(&job.chart) {
         output::probe(path)?;
     }
-    let scene = scene_file::read(&job.scene)?;
+    let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
     let renderer = renderer::prepare(&scene, &job.settings)?;
     let map = CostMap::probe(&*renderer, NonZeroU32::MIN, interrupt)?;
     let region = renderer.built().region();

@@ -18,10 +18,15 @@ pub struct RenderSettings {
     pub tree: TreeSettings,
     /// Columns and rows, 1 to 65535 each; the scene's own if `None`. The framing stays the same.
     pub size: Option<(u32, u32)>,
+    /// Degrees by which the camera is turned, to its right, about what it looks at: the point that an NFF camera looks at,
+    /// or the median of the objects' middles for the thesis's. 0 is as in the file.
+    pub orbit: f64,
     /// Pixels that one ray colours.
     pub pixels_per_ray: PixelsPerRay,
-    /// K for the mean of K × K rays per pixel, 1 to 64; 1 with four pixels per ray.
+    /// K for the mean of K × K rays per pixel, 1 to 64; 1 with several pixels per ray.
     pub samples: u32,
+    /// More rays only where neighbouring ones differ; `samples` and `pixels_per_ray` are 1 then.
+    pub adaptive: Option<Adaptive>,
     /// Maximum number of bounces of a ray, 0 to [`RenderSettings::DEEPEST`].
     pub max_depth: u32,
     /// Rays of a smaller weight than this, 0 to 1, are not traced.
@@ -38,8 +43,10 @@ impl RenderSettings {
         arith: Arith::F32,
         tree: TreeSettings::of(TreeKind::Bvh8),
         size: None,
+        orbit: 0.0,
         pixels_per_ray: PixelsPerRay::One,
         samples: 1,
+        adaptive: None,
         max_depth: 8,
         cut_off: 1.0 / 512.0,
     };
@@ -48,6 +55,32 @@ impl RenderSettings {
 impl Default for RenderSettings {
     fn default() -> Self {
         Self::DEFAULT
+    }
+}
+
+/// Whitted's adaptive antialiasing (thesis, chapter IV): a ray through every corner of a pixel, and where the four of a
+/// pixel differ, rays through the corners of its quarters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Adaptive {
+    /// How often a pixel is quartered at most, 1 to [`Adaptive::MOST_LEVELS`].
+    pub levels: u32,
+    /// Corners differ if any channel differs by more than this many of 255 levels.
+    pub threshold: u8,
+}
+
+impl Adaptive {
+    /// The largest allowed number of levels: quarters of 1/64 of a pixel's side.
+    pub const MOST_LEVELS: u32 = 6;
+
+    /// Two levels, as fine as four by four rays.
+    pub const DEFAULT: Self = Self {
+        levels: 2,
+        threshold: 8,
+    };
+
+    /// Returns the side of a pixel in sides of the smallest quarters.
+    pub const fn side(self) -> u32 {
+        1 << self.levels
     }
 }
 
@@ -312,7 +345,7 @@ impl Walk {
     }
 }
 
-/// Pixels that one ray colours.
+/// Pixels that one ray colours: a square of up to 8 × 8.
 #[derive(
     Clone,
     Copy,
@@ -335,29 +368,42 @@ pub enum PixelsPerRay {
     /// One ray per block of 2 × 2 pixels.
     #[strum(serialize = "4")]
     Four,
+    /// One ray per block of 3 × 3 pixels.
+    #[strum(serialize = "9")]
+    Nine,
+    /// One ray per block of 4 × 4 pixels.
+    #[strum(serialize = "16")]
+    Sixteen,
+    /// One ray per block of 5 × 5 pixels.
+    #[strum(serialize = "25")]
+    TwentyFive,
+    /// One ray per block of 6 × 6 pixels.
+    #[strum(serialize = "36")]
+    ThirtySix,
+    /// One ray per block of 7 × 7 pixels.
+    #[strum(serialize = "49")]
+    FortyNine,
+    /// One ray per block of 8 × 8 pixels.
+    #[strum(serialize = "64")]
+    SixtyFour,
 }
 
 impl PixelsPerRay {
     /// Returns the number of pixels.
     pub const fn number(self) -> u32 {
-        match self {
-            Self::One => 1,
-            Self::Four => 4,
-        }
+        self.side() * self.side()
     }
 
     /// Returns the side of the square of pixels that one ray colours.
     pub const fn side(self) -> u32 {
-        match self {
-            Self::One => 1,
-            Self::Four => 2,
-        }
+        self as u32 + 1
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use octray_core::frame::Frame;
 
     #[test]
     fn a_tree_has_the_same_name_on_the_command_line_and_in_files() {
@@ -390,6 +436,15 @@ mod tests {
         let kind =
             |objects| FirmwareTree::AUTO.kind_for(objects, Format::F32, Some("thumbv7m-none-eabi"));
         assert_eq!([kind(2), kind(3)], [TreeKind::None, TreeKind::CompactBvh8]);
+    }
+
+    #[test]
+    fn pixels_per_ray_are_the_squares_that_their_names_say() {
+        for (side, pixels) in (1..).zip(PixelsPerRay::VARIANTS) {
+            assert_eq!((pixels.side(), pixels.number()), (side, side * side));
+            assert_eq!(pixels.name(), (side * side).to_string());
+        }
+        assert_eq!(PixelsPerRay::VARIANTS.len() as u32, Frame::<f32>::MAX_BLOCK);
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! | [`diagnostic`] | describes what is wrong with a file, where, and what was expected |
 //! | [`check`] | checks the invariants of a scene, for the parser and for scenes made otherwise |
 //! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
+//! | [`reduce`] | leaves out lights, mirrors and glass |
 //! | [`mod@generate`] | generates scenes of any size from a seed |
 //! | [`input`] | reads whole files, pipes and standard input, up to a bound |
 //! | [`name`] | shows the names of files in messages |
@@ -31,11 +32,14 @@ pub mod model;
 pub mod name;
 pub mod parse;
 pub mod point;
+pub mod reduce;
 mod word;
 pub mod write;
 
 pub use generate::generate;
-pub use parse::{ReadError, parse, parse_with_warnings, read, read_with_warnings};
+pub use parse::{
+    ReadError, object_lines, parse, parse_with_warnings, read, read_with_lines, read_with_warnings,
+};
 pub use write::write;
 
 /// The examples of the README are compiled and run.

@@ -33,6 +33,27 @@ pub fn parse(source: &str) -> Result<Scene, Diagnostics> {
 /// # Errors
 /// Those of [`parse`].
 pub fn parse_with_warnings(source: &str) -> Result<(Scene, Warnings), Diagnostics> {
+    parse_telling(source, |_| {})
+}
+
+/// Returns the lines, counted from 1, on which the objects of a scene begin, in the order of [`Scene::objects`].
+pub fn object_lines(source: &str) -> Vec<u32> {
+    let mut lines = Vec::new();
+    let (mut line, mut counted) = (1, 0);
+    let _ = parse_telling(source, |start| {
+        let between = source[counted..start].bytes();
+        line += between.filter(|byte| *byte == b'\n').count() as u32;
+        counted = start;
+        lines.push(line);
+    });
+    lines
+}
+
+/// Reads a scene; where each object begins is told.
+fn parse_telling(
+    source: &str,
+    mut begins: impl FnMut(usize),
+) -> Result<(Scene, Warnings), Diagnostics> {
     let source = without_dos_end(source);
     let mut mistakes = Sink::default();
     if let Some(span) = sense8(source) {
@@ -43,7 +64,11 @@ pub fn parse_with_warnings(source: &str) -> Result<(Scene, Warnings), Diagnostic
     let mut builder = build::Builder::default();
     let mut numbers = Vec::new();
     while let Some(entity) = entities.next(&mut numbers, &mut mistakes) {
+        let before = builder.objects();
         builder.add(&entity, &numbers, &mut mistakes);
+        if builder.objects() > before {
+            begins(entity.span.start);
+        }
         if mistakes.ends_reading() {
             break;
         }
@@ -93,6 +118,16 @@ pub fn read(path: impl AsRef<Path>) -> Result<Scene, ReadError> {
 /// # Errors
 /// Those of [`read`].
 pub fn read_with_warnings(path: impl AsRef<Path>) -> Result<(Scene, String), ReadError> {
+    read_with_lines(path).map(|(scene, warnings, _)| (scene, warnings))
+}
+
+/// Reads a scene as [`read_with_warnings`] does. Returned as well are the [`object_lines`], once they are asked for.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with_lines(
+    path: impl AsRef<Path>,
+) -> Result<(Scene, String, impl FnOnce() -> Vec<u32>), ReadError> {
     let path = path.as_ref();
     let source = input::read_text(path, input::MOST_SCENE).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => ReadError::NotFound { path: path.into() },
@@ -109,7 +144,10 @@ pub fn read_with_warnings(path: impl AsRef<Path>) -> Result<(Scene, String), Rea
         false => path.to_string_lossy(),
     };
     match parse_with_warnings(&source) {
-        Ok((scene, warnings)) => Ok((scene, warnings.draw(&name, &source))),
+        Ok((scene, warnings)) => {
+            let warnings = warnings.draw(&name, &source);
+            Ok((scene, warnings, move || object_lines(&source)))
+        }
         Err(diagnostics) => Err(ReadError::Mistakes {
             drawn: diagnostics.draw(&name, &source),
             diagnostics,

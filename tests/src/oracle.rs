@@ -99,14 +99,14 @@ pub struct Picture {
 /// Renders the text of a scene file on all cores.
 ///
 /// # Panics
-/// If the scene is not valid, or `pixels_per_ray` is neither 1 nor 4, or `samples` or a size is 0.
+/// If the scene is not valid, or `pixels_per_ray` is no square, or `samples` or a size is 0.
 #[must_use]
 pub fn render(source: &str, options: &Options) -> Picture {
-    let side = match options.pixels_per_ray {
-        1 => 1,
-        4 => 2,
-        other => panic!("pixels per ray must be 1 or 4, not {other}"),
-    };
+    let side = options.pixels_per_ray.isqrt();
+    assert!(
+        side > 0 && side * side == options.pixels_per_ray,
+        "pixels per ray must be a square"
+    );
     assert!(options.samples > 0, "samples must be at least 1");
     let scene = read::scene(source);
     let camera = Camera::new(&scene.view, options.size);

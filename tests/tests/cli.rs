@@ -110,6 +110,8 @@ fn the_json_object_has_the_documented_fields() {
         "scene",
         "arith",
         "format",
+        "lights",
+        "opaque",
         "size",
         "rays",
         "steps",

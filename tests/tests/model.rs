@@ -1,6 +1,7 @@
 //! In `f64` octray renders the oracle's picture: at least 99.9 % of the pixels are within one level, and the numbers of
 //! rays of each kind are nearly equal.
 
+use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, PixelsPerRay};
 use octray_render::stats::Rays;
 use octray_tests::oracle::{self, Counts};
@@ -27,7 +28,7 @@ fn random_scenes_match_the_model() {
             shot = shot.size(77, 53);
         }
         match seed % 5 {
-            1 => shot.settings.pixels_per_ray = PixelsPerRay::Four,
+            1 => shot.settings.pixels_per_ray = PixelsPerRay::all()[(seed / 5 % 8) as usize],
             2 => shot.settings.samples = 2,
             3 => shot.settings.max_depth = (seed / 5 % 4) as u32,
             4 => shot.settings.cut_off = 0.0,
@@ -56,10 +57,7 @@ fn compare(name: &str, source: &str, shot: &Shot) -> Option<String> {
     let ours = shot.take(&scene);
     let options = oracle::Options {
         size: shot.settings.size,
-        pixels_per_ray: match shot.settings.pixels_per_ray {
-            PixelsPerRay::One => 1,
-            PixelsPerRay::Four => 4,
-        },
+        pixels_per_ray: shot.settings.pixels_per_ray.number(),
         samples: shot.settings.samples,
         max_depth: shot.settings.max_depth,
         cut_off: shot.settings.cut_off,

@@ -4,6 +4,7 @@
 pub mod fuzz;
 
 use fastrand::Rng;
+use octray_prepare::choice::Choice;
 use octray_render::picture::{Picture, RasDepth, Target};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -97,10 +98,10 @@ fn pictures_are_read_or_refused() {
     let mut seeds = files("tests/golden", "png");
     let levels = (0..6).map(|i| [i, 10 * i, 40 * i]).collect();
     let small = Picture::from_levels(3, 2, levels).unwrap();
-    for name in ["a.png", "a.ppm", "a.pfm", "a.ras"] {
+    for name in ["a.png", "a.ppm", "a.pfm", "a.ras", "a.int"] {
         let path = folder.path().join(name);
         let target = Target::new(path.clone()).unwrap();
-        for depth in [RasDepth::Eight, RasDepth::TwentyFour] {
+        for depth in RasDepth::all() {
             target.write(&small, depth, &Default::default()).unwrap();
             seeds.push(fs::read(&path).unwrap());
         }

@@ -11,11 +11,14 @@ use core::fmt::{self, Display, Formatter};
 /// A ray that waits to be traced.
 #[derive(Clone, Copy, Debug)]
 pub struct QueuedRay<S> {
-    pub(super) ray: Ray<S>,
+    /// The ray.
+    pub ray: Ray<S>,
     /// The share of its light that reaches the picture.
-    pub(super) weight: S,
-    pub(super) depth: u32,
-    pub(super) kind: RayKind,
+    pub weight: S,
+    /// How often it has bounced: 0 for a ray of the camera.
+    pub depth: u32,
+    /// Why it is traced.
+    pub kind: RayKind,
 }
 
 impl<S: Scalar> QueuedRay<S> {

@@ -2,7 +2,7 @@
 
 use crate::baked::{FEATURES, MAX_DEPTH, RAYS};
 use core::sync::atomic::{AtomicU32, Ordering};
-use octray_core::observe::Observer;
+use octray_core::observe::{Observer, RayObserver};
 use octray_core::trace::required_rays;
 
 /// Whether the capacity provably suffices; then the compiler removes everything here.
@@ -12,6 +12,8 @@ static DROPPED: AtomicU32 = AtomicU32::new(0);
 
 /// Counts dropped rays. It has no field, so that tracing compiles to the same instructions as with `()`.
 pub(super) struct DropCounter;
+
+impl<S> RayObserver<S> for DropCounter {}
 
 impl Observer for DropCounter {
     #[inline(always)]

@@ -29,7 +29,7 @@ pub const NAMES: [&str; EVENTS] = [
 ];
 
 /// Machine instructions for each event, on x86-64 in f32 with the tight tree: what
-/// `cargo bench -p octray --bench weights` fits to instructions counted by Callgrind. Other arithmetics and
+/// the binary `fit-weights` of `octray-lab` fits to instructions counted by Callgrind. Other arithmetics and
 /// trees cost more or less, but in much the same places.
 pub const WEIGHTS: [f64; EVENTS] = [
     411.0, 375.0, 116.0, 188.0, 326.0, 117.0, 95.0, 120.0, 106.0, 162.0, 251.0,
@@ -96,7 +96,7 @@ impl CostMap {
         let mut worker = renderer.worker(interrupt);
         let mut before = 0.0;
         let Region { columns, rows } = built.active.clone();
-        // Rays start where blocks do, which begin at even pixels.
+        // Rays start where blocks do.
         let starts = |start: u32, end| (start / block * block..end).step_by(cell as usize);
         let costs = starts(rows.start, rows.end).map(|row| {
             interrupt.check()?;

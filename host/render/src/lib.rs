@@ -24,7 +24,10 @@
 //! | [`renderer`] | a scene prepared in one format with one tree, whoever traces it |
 //! | [`schedule`] | how many threads, which tiles, in which order |
 //! | [`tile`], [`scheduler`], [`threads`], [`framebuffer`] | the picture cut into tiles, assigned to threads, put together |
+//! | [`wire`] | lines where the object that is seen changes |
+//! | [`adaptive`] | antialiasing with more rays only where neighbouring ones differ |
 //! | [`mod@render`], [`stats`] | a scene rendered, and what it cost |
+//! | [`pixel_trace`] | what the rays of one pixel meet |
 //! | [`cost`] | what parts of a picture cost, estimated from counted events |
 //! | [`picture`], [`output`] | pictures, and files that are written atomically |
 //! | [`scene_file`] | reads scenes for commands, telling their warnings |
@@ -32,6 +35,7 @@
 //! | [`counts`] | what is in a scene, counted |
 //! | [`interrupt`], [`progress`], [`error`] | a request to stop and a budget of rays, how far the work is, what can go wrong |
 
+pub mod adaptive;
 mod build;
 mod cache_padded;
 pub mod cost;
@@ -44,6 +48,7 @@ pub mod metric;
 pub mod output;
 mod owned;
 pub mod picture;
+pub mod pixel_trace;
 mod prepared;
 pub mod progress;
 pub mod render;
@@ -55,9 +60,12 @@ pub mod stats;
 pub mod threads;
 pub mod tile;
 mod watch;
+pub mod wire;
 
 pub use error::Error;
-pub use octray_prepare::{Arith, Format, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+pub use octray_prepare::{
+    Adaptive, Arith, Format, PixelsPerRay, RenderSettings, TreeKind, TreeSettings,
+};
 pub use picture::Picture;
 pub use render::{Rendering, render};
 pub use schedule::Schedule;

@@ -1,6 +1,8 @@
 //! Pictures: 8-bit levels, float intensities where asked for, and the files that hold them.
 
+mod dither;
 mod format;
+mod intensity;
 mod malformed;
 mod netpbm;
 mod palette;
@@ -9,6 +11,8 @@ mod png;
 mod ppm;
 mod ras;
 
+pub use self::png::Animation;
+pub use dither::Dither;
 pub use format::{Format, Target, decode, read};
 pub use ras::RasDepth;
 

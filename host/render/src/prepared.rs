@@ -3,10 +3,11 @@
 use crate::cache_padded::CachePadded;
 use crate::interrupt::Interrupt;
 use crate::owned::{AnyAccelerator, AnyStack, OwnedAccelerator};
+use crate::pixel_trace::{PixelTrace, Recorder};
 use crate::renderer::{Built, FirstHit, Renderer, Worker};
 use crate::tile::{Intensity, Level, Tile};
 use crate::watch::Watch;
-use octray_core::frame::Region;
+use octray_core::frame::{RUN, Region};
 use octray_core::object::ObjectRef;
 use octray_core::observe::Counters;
 use octray_core::quantize::Quantize;
@@ -142,6 +143,48 @@ impl<S: Quantize> Worker for Tracing<'_, S> {
             };
             columns.flat_map(place).map(hit).collect()
         })
+    }
+
+    fn trace_pixel(&mut self, column: u32, row: u32) -> PixelTrace {
+        let ready = self.ready;
+        let block = ready.prepared.frame.block();
+        let (left, top) = (column / block * block, row / block * block);
+        let region = Region {
+            columns: left..left + block,
+            rows: top..top + block,
+        };
+        let (mut level_here, mut intensity_here) = ready.built.background;
+        self.shadow_cache.get().fill(None);
+        self.watch.recorder = Some(Box::new(Recorder::new(&self.watch.counters)));
+        self.render(&region, &mut |x, y, colour| {
+            if (x, y) == (column, row) {
+                (level_here, intensity_here) = (level(colour), intensity(colour));
+            }
+        });
+        let recorder = self.watch.recorder.take();
+        let scene = ready.prepared.scene.scene();
+        let id = |object| scene.attributes_of(object).id;
+        let unit = (-f64::from(ready.built.scale)).exp2();
+        PixelTrace {
+            rays: recorder.map_or_else(Vec::new, |recorder| recorder.into_rays(id, unit)),
+            level: level_here,
+            intensity: intensity_here,
+        }
+    }
+
+    fn trace_places(&mut self, places: &[(u32, u32)]) -> Vec<Intensity> {
+        let frame = &self.ready.prepared.frame;
+        // As in the frame, the shadow cache begins anew at each run of pixels, so that tiles do not change what is counted.
+        let run = |(x, y): (u32, u32)| (x / (2 * frame.params().samples * RUN), y);
+        let mut colours = Vec::with_capacity(places.len());
+        for places in places.chunk_by(|a, b| run(*a) == run(*b)) {
+            self.shadow_cache.get().fill(None);
+            self.with(|tracer, workspace, watch| {
+                let rays = places.iter().map(|&(x, y)| frame.ray_at(x, y));
+                colours.extend(rays.map(|ray| intensity(tracer.radiance(ray, workspace, watch))));
+            });
+        }
+        colours
     }
 
     fn counters(&self) -> &Counters {

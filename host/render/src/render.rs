@@ -1,5 +1,6 @@
 //! Rendering a scene: prepared, cut into tiles, scheduled on threads.
 
+use crate::adaptive;
 use crate::cost::CostMap;
 use crate::error::Error;
 use crate::framebuffer::Framebuffer;
@@ -81,7 +82,17 @@ pub fn render_with(
     let renderer = renderer::prepare(scene, settings)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let rendered = render_tiles(&*renderer, schedule, holds_intensities, progress, interrupt)?;
+    let rendered = match settings.adaptive {
+        None => render_tiles(&*renderer, schedule, holds_intensities, progress, interrupt)?,
+        Some(how) => adaptive::render(
+            &*renderer,
+            how,
+            schedule,
+            holds_intensities,
+            progress,
+            interrupt,
+        )?,
+    };
     let (picture, counters, work, saturations) = rendered;
     let times = (build, begin.elapsed());
     Ok(rendering(
@@ -164,7 +175,7 @@ pub fn render_tiles(
     interrupt: &Interrupt,
 ) -> Result<(Picture, Counters, Work, u64), Error> {
     let (picture, region) = blank(renderer, holds_intensities)?;
-    let shape: TileSize = schedule.tile(&region);
+    let shape: TileSize = schedule.tile(&region, renderer.built().block);
     let parts: Vec<_> = shape.cut(&region).collect();
     let order = order(renderer, schedule.policy, &parts, interrupt)?;
     let count = parts.len();

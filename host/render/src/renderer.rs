@@ -7,6 +7,7 @@
 pub use crate::build::{PrepareError, prepare};
 
 use crate::interrupt::Interrupt;
+use crate::pixel_trace::PixelTrace;
 use crate::tile::{Intensity, Level, Tile};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
@@ -37,6 +38,14 @@ pub trait Worker: Send {
     /// What the camera's rays through the blocks that begin in a row meet first, from left to right; the
     /// samples of a block follow each other.
     fn first_hits(&mut self, row: u32) -> Vec<Option<FirstHit>>;
+
+    /// Traces the rays that colour a pixel of the picture, and tells what each meets. The pixel is the picture's; what is
+    /// counted is as if it had been the first of its tile.
+    fn trace_pixel(&mut self, column: u32, row: u32) -> PixelTrace;
+
+    /// Traces rays through places of the picture, in units of a 2·samples-th of a pixel from its upper left corner. Returns
+    /// what they bring, clamped. What is counted does not depend on what was traced before.
+    fn trace_places(&mut self, places: &[(u32, u32)]) -> Vec<Intensity>;
 
     /// What was counted so far.
     fn counters(&self) -> &Counters;
@@ -69,7 +78,7 @@ pub struct Built {
     pub size: (u32, u32),
     /// The pixels that may show anything but background.
     pub active: Region,
-    /// The side of the square of pixels that one ray colours, 1 or 2.
+    /// The side of the square of pixels that one ray colours.
     pub block: u32,
     /// The background.
     pub background: (Level, Intensity),

@@ -1,8 +1,13 @@
 //! Counting rays with an eye on the request to stop.
 
 use crate::interrupt::Interrupt;
-use octray_core::object::ObjectKind;
-use octray_core::observe::{Counters, Observer, RayKind};
+use crate::pixel_trace::Recorder;
+use octray_core::accel::Hit;
+use octray_core::object::{ObjectKind, ObjectRef};
+use octray_core::observe::{Counters, Observer, RayKind, RayObserver};
+use octray_core::quantize::Quantize;
+use octray_core::trace::QueuedRay;
+use octray_core::vec3::Vec3;
 
 /// After so many rays the request is looked for. Looking takes a memory access that other threads may share; a ray takes
 /// about a thousand instructions, so this is every few milliseconds.
@@ -11,6 +16,8 @@ const PERIOD: u32 = 1024;
 /// What one thread counted, and when it looks for a request to stop.
 pub(crate) struct Watch {
     pub(crate) counters: Counters,
+    /// What rays meet is recorded here, if it is wanted.
+    pub(crate) recorder: Option<Box<Recorder>>,
     interrupt: Interrupt,
     /// Rays until the next look.
     left: u32,
@@ -22,6 +29,7 @@ impl Watch {
     pub(crate) fn new(interrupt: &Interrupt) -> Self {
         Self {
             counters: Counters::default(),
+            recorder: None,
             interrupt: interrupt.clone(),
             left: PERIOD,
             spent: 0,
@@ -104,6 +112,40 @@ impl Observer for Watch {
                 false
             }
             None => self.look(),
+        }
+    }
+}
+
+/// Whether to record is asked a few times for a ray, not in the searches.
+impl<S: Quantize> RayObserver<S> for Watch {
+    #[inline(always)]
+    fn begins(&mut self, ray: &QueuedRay<S>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.begin(&self.counters, ray);
+        }
+    }
+    #[inline(always)]
+    fn meets(&mut self, hit: Hit<S>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.meet(&self.counters, hit);
+        }
+    }
+    #[inline(always)]
+    fn looked_for_light(&mut self, light: usize, blocker: Option<ObjectRef>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.light(&self.counters, light, blocker);
+        }
+    }
+    #[inline(always)]
+    fn not_followed(&mut self, kind: RayKind, weight: Option<S>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.not_followed(kind, weight.map(S::to_f64));
+        }
+    }
+    #[inline(always)]
+    fn brings(&mut self, light: Vec3<S>) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.brings(&self.counters, light);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Arguments of `octray bake`.
 
-use super::{files, value};
+use super::{ReductionArgs, files, value};
 use crate::bake::BakeJob;
 use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
@@ -22,7 +22,9 @@ pub struct BakeArgs {
     /// Columns and rows; the framing stays [default: the scene's own]
     #[arg(long, value_name = "WxH", value_parser = value::size)]
     size: Option<(u32, u32)>,
-    /// Pixels that one ray colours: 1, or 4 in squares of two by two
+    #[command(flatten)]
+    reduction: ReductionArgs,
+    /// Pixels that one ray colours
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// The tree to bake
@@ -58,6 +60,7 @@ impl BakeArgs {
         files::distinct(self.plan.iter().chain([&self.scene]), &self.output)?;
         Ok(BakeJob {
             scene: self.scene,
+            reduction: self.reduction.reduction(),
             settings: RenderSettings {
                 arith: self.arith,
                 tree: TreeSettings {

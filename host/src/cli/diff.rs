@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `octray diff`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-Pictures are PNG, PPM (P6), PFM or Sun rasterfiles; the file's contents decide. They are compared by their \
+Pictures are PNG, PPM (P6), PFM, Sun rasterfiles or intensity files; the file's contents decide. They are compared by their \
 8-bit levels. A pixel's difference is the largest of its channels' differences. The exit code is 1 when \
 any bound is exceeded. In JSON, the PSNR of equal pictures, which is infinite, is null.")]
 pub struct DiffArgs {

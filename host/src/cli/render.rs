@@ -1,6 +1,8 @@
 //! Arguments of `octray render`.
 
-use super::{files, value};
+use super::frames::FramesArgs;
+use super::value::Samples;
+use super::{ReductionArgs, files, value};
 use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
 use octray_core::frame::RUN;
@@ -19,7 +21,7 @@ use std::path::PathBuf;
 pub struct RenderArgs {
     /// The scene file
     scene: PathBuf,
-    /// The picture: .png, .ppm, .pfm (float intensities) or .ras (Sun rasterfile)
+    /// The picture: .png, .ppm, .pfm (float intensities), .ras (Sun rasterfile) or .int (intensities as text)
     /// [default: the scene's name with .png, in the current folder]
     #[arg(short, long, value_name = "FILE", value_parser = value::target(), verbatim_doc_comment)]
     output: Option<Target>,
@@ -36,12 +38,22 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FORM", value_parser = value::choice::<StatsFormat>(), default_value = StatsFormat::default().name())]
     stats: StatsFormat,
 
+    /// Draw black lines where the object that is seen changes, instead of surfaces; only rays of the camera are traced
+    #[arg(long)]
+    wire: bool,
+    #[command(flatten)]
+    reduction: ReductionArgs,
+
+    #[command(flatten)]
+    frames: FramesArgs,
+
     /// Pixels that one ray colours
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name(), help_heading = RAYS)]
     pixels_per_ray: PixelsPerRay,
-    /// Trace K x K rays per pixel and average them
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64), help_heading = RAYS)]
-    samples: u32,
+    /// Trace K x K rays per pixel and average them; or adaptive[:LEVELS[:THRESHOLD]]: one ray through each corner of a
+    /// pixel, and where corners differ by more than THRESHOLD (8) of 255 levels, quarter the pixel up to LEVELS (2) times
+    #[arg(long, value_name = "K", default_value = "1", value_parser = value::samples, help_heading = RAYS)]
+    samples: Samples,
     /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)), help_heading = RAYS)]
     max_depth: u32,
@@ -102,19 +114,30 @@ impl RenderArgs {
     /// [`Error::Usage`] when they contradict each other, or the picture would replace the scene.
     pub fn job(self) -> Result<RenderJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
-        if self.pixels_per_ray == PixelsPerRay::Four {
-            if self.samples > 1 {
-                return usage("--pixels-per-ray 4 and --samples above 1 contradict each other");
-            }
-            if self.tile_rows.is_some_and(|rows| rows.get() % 2 == 1) {
-                return usage("with --pixels-per-ray 4, --tile-rows must be even");
-            }
+        let (pixels, block) = (self.pixels_per_ray.number(), self.pixels_per_ray.side());
+        let (samples, adaptive) = match self.samples {
+            Samples::Uniform(samples) => (samples, None),
+            Samples::Adaptive(how) => (1, Some(how)),
+        };
+        if pixels > 1 && (samples > 1 || adaptive.is_some()) {
+            return usage("--pixels-per-ray and --samples, both above 1, contradict each other");
         }
-        if self
-            .tile_columns
-            .is_some_and(|columns| columns.get() % RUN != 0)
-        {
-            return usage("--tile-columns must be a multiple of 8");
+        if self.wire && (samples > 1 || adaptive.is_some()) {
+            return usage("--wire draws lines of whole pixels: leave out --samples");
+        }
+        if (self.tile_rows).is_some_and(|rows| !rows.get().is_multiple_of(block)) {
+            return usage(&format!(
+                "with --pixels-per-ray {pixels}, --tile-rows must be a multiple of {block}"
+            ));
+        }
+        let unit = Schedule::columns(block);
+        if (self.tile_columns).is_some_and(|columns| !columns.get().is_multiple_of(unit)) {
+            return usage(&match unit {
+                RUN => format!("--tile-columns must be a multiple of {unit}"),
+                _ => format!(
+                    "with --pixels-per-ray {pixels}, --tile-columns must be a multiple of {unit}"
+                ),
+            });
         }
         if self.walk != Walk::Ordered && !self.tree.is_octree() {
             return Err(Error::Usage(format!(
@@ -125,6 +148,16 @@ impl RenderArgs {
         }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
+            true if adaptive.is_some() => {
+                return usage(
+                    "with --samples adaptive, tiles share rays, which ranks cannot: leave out --mpi",
+                );
+            }
+            true if self.wire || self.frames.is_used() => {
+                return usage(
+                    "--mpi shares one picture of surfaces: leave out --wire, --frames and --path",
+                );
+            }
             true if self.threads.is_some_and(|threads| threads.get() > 1) => {
                 return usage("with --mpi, a rank uses one thread; start more ranks instead");
             }
@@ -138,9 +171,13 @@ impl RenderArgs {
                 Target::new(name).map_err(Error::Usage)?
             }
         };
-        files::distinct([&self.scene], [&output.path])?;
+        let (frames, orbit) = self.frames.job(&output)?;
+        if frames.is_none() {
+            files::distinct([&self.scene], [&output.path])?;
+        }
         Ok(RenderJob {
             scene: self.scene,
+            reduction: self.reduction.reduction(),
             output,
             ras_depth: self.ras_depth,
             settings: RenderSettings {
@@ -154,8 +191,10 @@ impl RenderArgs {
                     walk: self.walk,
                 },
                 size: self.size,
+                orbit,
                 pixels_per_ray: self.pixels_per_ray,
-                samples: self.samples,
+                samples,
+                adaptive,
                 max_depth: self.max_depth,
                 cut_off: self.cut_off,
             },
@@ -165,13 +204,15 @@ impl RenderArgs {
                 tile: match (self.tile_rows, self.tile_columns) {
                     (None, None) => None,
                     (rows, columns) => Some(TileSize {
-                        rows: rows.unwrap_or(const { NonZeroU32::new(16).unwrap() }),
+                        rows: rows.unwrap_or(Schedule::largest(block).rows),
                         columns,
                     }),
                 },
                 pin: self.pin,
             },
             mpi: self.mpi,
+            wire: self.wire,
+            frames,
             stats: self.stats,
         })
     }
@@ -182,6 +223,7 @@ mod tests {
     use super::*;
     use clap::Parser;
     use octray_render::picture::Format;
+    use octray_scenes::reduce::Reduction;
     use std::path::Path;
 
     #[derive(Debug, Parser)]
@@ -205,6 +247,7 @@ mod tests {
         assert_eq!(job.scene, Path::new("folder/figure-19.scene"));
         assert_eq!(job.output.path, Path::new("figure-19.png"));
         assert_eq!(job.output.format, Format::Png);
+        assert_eq!(job.reduction, Reduction::default());
         assert_eq!(job.ras_depth, RasDepth::Eight);
         assert_eq!(job.settings, RenderSettings::DEFAULT);
         assert_eq!(job.work, Schedule::default());
@@ -216,10 +259,16 @@ mod tests {
         let job = job(
             "a.nff -o b.RAS --arith i16f16 --size 3x5 --ras-depth 24 --stats json --pixels-per-ray 1 \
              --samples 3 --max-depth 4 --cut-off 0 --tree plain --tree-depth 7 --leaf-size 1 --arena 9 \
-             --link box --walk links --threads 5 --schedule work-stealing --tile-rows 3 --tile-columns 8 --pin",
+             --lights 3 --opaque --orbit 12.5 --link box --walk links --threads 5 --schedule work-stealing --tile-rows 3 \
+             --tile-columns 8 --pin",
         );
         assert_eq!(job.output.format, Format::Ras);
         assert_eq!(job.ras_depth, RasDepth::TwentyFour);
+        let reduction = Reduction {
+            lights: Some(3),
+            opaque: true,
+        };
+        assert_eq!(job.reduction, reduction);
         assert_eq!(job.stats, StatsFormat::Json);
         let settings = RenderSettings {
             arith: Arith::I16F16,
@@ -232,8 +281,10 @@ mod tests {
                 walk: Walk::Links,
             },
             size: Some((3, 5)),
+            orbit: 12.5,
             pixels_per_ray: PixelsPerRay::One,
             samples: 3,
+            adaptive: None,
             max_depth: 4,
             cut_off: 0.0,
         };
@@ -255,6 +306,8 @@ mod tests {
         let shape = |line| job(line).work.tile.map(|shape| shape.to_string());
         assert_eq!(shape("a.scene"), None);
         assert_eq!(shape("a.scene --tile-rows 9").as_deref(), Some("9 rows"));
+        let tiles = shape("a.scene --tile-columns 24 --pixels-per-ray 9");
+        assert_eq!(tiles.as_deref(), Some("24 x 18 pixels"));
         let tiles = shape("a.scene --tile-columns 24");
         assert_eq!(tiles.as_deref(), Some("24 x 16 pixels"));
         // The old names.
@@ -269,6 +322,8 @@ mod tests {
             "--threads 65537",
             "--tile-rows 0",
             "--tile-columns 0",
+            "--lights -1",
+            "--lights all",
             "--samples 0",
             "--samples 65",
             "--size 0x1",
@@ -293,12 +348,15 @@ mod tests {
 
     #[test]
     fn contradictions_are_bad_usage() {
-        for flags in ["--samples 2", "--tile-rows 3"]
-            .map(|flags| format!("--pixels-per-ray 4 {flags}"))
-            .into_iter()
-            .chain(["--tile-columns 12".into()])
-        {
-            let line = format!("a.scene {flags}");
+        for flags in [
+            "4 --samples 2",
+            "4 --tile-rows 3",
+            "4 --tile-columns 12",
+            "9 --tile-rows 16",
+            "9 --tile-columns 16",
+            "1 --tile-columns 12",
+        ] {
+            let line = format!("a.scene --pixels-per-ray {flags}");
             let error = parse(&line).unwrap().job().unwrap_err();
             assert!(matches!(error, Error::Usage(_)), "{error}");
         }

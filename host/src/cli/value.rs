@@ -3,6 +3,7 @@
 use crate::diff::Share;
 use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use octray_prepare::Adaptive;
 use octray_prepare::choice::Choice;
 use octray_render::picture::Target;
 use std::ffi::OsStr;
@@ -97,6 +98,57 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
 }
 
+/// How many rays a pixel gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// K × K of them.
+    Uniform(u32),
+    /// More where neighbouring ones differ.
+    Adaptive(Adaptive),
+}
+
+/// Parses `K` or `adaptive[:LEVELS[:THRESHOLD]]`.
+///
+/// # Errors
+/// States what was expected.
+pub fn samples(text: &str) -> Result<Samples, String> {
+    let uniform = text.parse().ok().filter(|k| (1..=64).contains(k));
+    let adaptive = || {
+        let mut words = text.split(':');
+        (words.next() == Some("adaptive")).then_some(())?;
+        let mut how = Adaptive::DEFAULT;
+        if let Some(levels) = words.next() {
+            let levels = levels.parse().ok();
+            how.levels = levels.filter(|n| (1..=Adaptive::MOST_LEVELS).contains(n))?;
+        }
+        if let Some(threshold) = words.next() {
+            how.threshold = threshold.parse().ok()?;
+        }
+        words.next().is_none().then_some(how)
+    };
+    uniform
+        .map(Samples::Uniform)
+        .or_else(|| adaptive().map(Samples::Adaptive))
+        .ok_or_else(|| {
+            format!(
+                "expected a number from 1 to 64, or adaptive[:LEVELS[:THRESHOLD]] with 1 to {} levels and a threshold \
+                 from 0 to 255",
+                Adaptive::MOST_LEVELS
+            )
+        })
+}
+
+/// Parses `x,y`, the column and the row of a pixel.
+///
+/// # Errors
+/// States what was expected.
+pub fn pixel(text: &str) -> Result<(u32, u32), String> {
+    let number = |text: &str| text.trim().parse().ok();
+    text.split_once(',')
+        .and_then(|(column, row)| Some((number(column)?, number(row)?)))
+        .ok_or_else(|| "expected COLUMN,ROW such as 100,80, both counted from 0".into())
+}
+
 /// Parses a whole number of at least 1 into one of the `NonZero` types.
 pub(super) fn positive<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse()
@@ -163,6 +215,40 @@ mod tests {
             "", "640", "0x5", "5x0", "65536x1", "1x2x3", "-1x2", "1.5x2", "ax2",
         ] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_samples() {
+        let adaptive = |levels, threshold| Ok(Samples::Adaptive(Adaptive { levels, threshold }));
+        let Adaptive { levels, threshold } = Adaptive::DEFAULT;
+        assert_eq!(samples("64"), Ok(Samples::Uniform(64)));
+        assert_eq!(samples("adaptive"), adaptive(levels, threshold));
+        assert_eq!(samples("adaptive:6"), adaptive(6, threshold));
+        assert_eq!(samples("adaptive:1:255"), adaptive(1, 255));
+        for wrong in [
+            "",
+            "0",
+            "65",
+            "Adaptive",
+            "adaptive:",
+            "adaptive:0",
+            "adaptive:7",
+            "adaptive:2:256",
+            "adaptive:2:3:4",
+            "adaptive:2:",
+            "adaptive2",
+        ] {
+            assert!(samples(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pixels() {
+        assert_eq!(pixel("0,65535"), Ok((0, 65535)));
+        assert_eq!(pixel("3, 4"), Ok((3, 4)));
+        for wrong in ["", "3", "3,", "3,4,5", "-1,2", "1.5,2", "3x4"] {
+            assert!(pixel(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -78,7 +78,7 @@ impl<'a> Leader<'a> {
         let ranks = self.world.size() as usize;
         let threads = NonZeroUsize::new(ranks).unwrap_or(NonZeroUsize::MIN);
         // A message is too expensive for smaller tiles to pay.
-        let shape = job.work.tile.unwrap_or(Schedule::TILE);
+        let shape = (job.work.tile).unwrap_or_else(|| Schedule::largest(renderer.built().block));
         let parts: Vec<_> = shape.cut(&region).collect();
         let order = render::order(&*renderer, job.work.policy, &parts, interrupt)?;
         let intensities = job.output.holds_intensities();

@@ -27,7 +27,7 @@ impl Grid {
         let mut settings = Vec::new();
         for &samples in &self.samples {
             for &pixels_per_ray in &self.pixels_per_ray {
-                if samples > 1 && pixels_per_ray == PixelsPerRay::Four {
+                if samples > 1 && pixels_per_ray != PixelsPerRay::One {
                     continue;
                 }
                 for &cut_off in &self.cut_offs {
@@ -37,10 +37,12 @@ impl Grid {
                                 arith,
                                 tree: TreeSettings::of(tree),
                                 size: Some(size),
+                                orbit: 0.0,
                                 max_depth,
                                 cut_off,
                                 pixels_per_ray,
                                 samples,
+                                adaptive: None,
                             }));
                         }
                     }
@@ -134,8 +136,8 @@ impl Setting for RenderSettings {
         let pixels = |setting: &Self| (setting.pixels_per_ray, setting.samples);
         if others.iter().any(|other| pixels(other) != pixels(self)) {
             words.push(match pixels(self) {
-                (PixelsPerRay::Four, _) => "4px".into(),
                 (PixelsPerRay::One, samples) => format!("{samples}x{samples}"),
+                (pixels, _) => format!("{}px", pixels.number()),
             });
         }
         match words.is_empty() {
@@ -202,9 +204,10 @@ pub fn common(settings: &[RenderSettings]) -> String {
         && same(|setting| setting.pixels_per_ray.number().into())
     {
         words.push(match (first.pixels_per_ray, first.samples) {
-            (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
             (PixelsPerRay::One, 1) => "1 ray per pixel".into(),
             (PixelsPerRay::One, samples) => format!("{samples} x {samples} rays per pixel"),
+            (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
+            (pixels, _) => format!("a ray for {} pixels", pixels.number()),
         });
     }
     words

@@ -150,7 +150,7 @@ fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(u32, u32), D::Err
 }
 
 fn pixels_per_ray<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PixelsPerRay, D::Error> {
-    read(deserializer, "1 or 4", |n: u32| {
+    read(deserializer, "the square of 1 to 8", |n: u32| {
         PixelsPerRay::named(&n.to_string())
     })
 }
@@ -319,7 +319,7 @@ plan: TOML parse error at line 4, column 18
   |
 4 | pixels-per-ray = 2
   |                  ^
-expected 1 or 4
+expected the square of 1 to 8
 "#]],
         );
         check(

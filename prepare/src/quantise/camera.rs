@@ -1,7 +1,8 @@
 //! Converts the parsed camera to the tracer's, and finds the pixels that can show anything.
 
+use super::extent::shape_box;
 use super::{Extent, Placement, vector};
-use crate::settings::RenderSettings;
+use crate::settings::{Adaptive, RenderSettings};
 use octray_core::camera::{Camera, Projection};
 use octray_core::frame::{Frame, Region};
 use octray_core::quantize::Quantize;
@@ -47,6 +48,24 @@ impl Rays {
         least
     }
 
+    /// Returns the same camera turned by an angle, anticlockwise as seen from above, about a unit axis through a point.
+    fn turned(self, angle: f64, centre: Point, axis: Point) -> Self {
+        let (sine, cosine) = angle.sin_cos();
+        // Rodrigues' formula.
+        let turn = |v: Point| {
+            let along = times(axis, dot(axis, v) * (1.0 - cosine));
+            add(add(times(v, cosine), times(cross(axis, v), sine)), along)
+        };
+        let away = add(self.origin, times(centre, -1.0));
+        Self {
+            origin: add(centre, turn(away)),
+            forward: turn(self.forward),
+            right: turn(self.right),
+            up: turn(self.up),
+            parallel: self.parallel,
+        }
+    }
+
     /// Returns the places where rays can start.
     pub(super) fn starts(&self) -> Vec<Point> {
         if !self.parallel {
@@ -66,6 +85,19 @@ impl RenderSettings {
     }
 
     pub(super) fn rays(&self, scene: &Scene) -> Rays {
+        let rays = self.still_rays(scene);
+        if self.orbit == 0.0 {
+            return rays;
+        }
+        let (centre, axis) = match scene.camera {
+            model::Camera::Nff { at, up, .. } => (at, up),
+            model::Camera::Thesis { .. } => (median(scene), [0.0, 1.0, 0.0]),
+        };
+        rays.turned(self.orbit.to_radians(), centre, unit(axis))
+    }
+
+    /// Returns the camera as it is in the file.
+    fn still_rays(&self, scene: &Scene) -> Rays {
         let (width, height) = self.size_of(scene);
         let (half_width, half_height) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
         match scene.camera {
@@ -160,8 +192,25 @@ impl RenderSettings {
                 block,
             ),
         };
-        Frame::new(camera, width, height, block, self.samples, region)
+        let samples = self.adaptive.map_or(self.samples, Adaptive::side);
+        Frame::new(camera, width, height, block, samples, region)
     }
+}
+
+/// Returns the place that has as many objects' middles on either side, along each axis. Other than the middle of all, it
+/// does not depend on how far a floor reaches.
+fn median(scene: &Scene) -> Point {
+    [0, 1, 2].map(|axis| {
+        let boxes = scene
+            .objects
+            .iter()
+            .map(|object| shape_box(scene, &object.shape));
+        let mut middles: Vec<_> = boxes
+            .map(|[low, high]| f64::midpoint(low[axis], high[axis]))
+            .collect();
+        middles.sort_by(f64::total_cmp);
+        middles.get(middles.len() / 2).copied().unwrap_or(0.0)
+    })
 }
 
 /// Returns all pixels.

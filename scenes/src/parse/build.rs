@@ -56,6 +56,11 @@ impl Builder {
         }
     }
 
+    /// Returns the number of objects so far.
+    pub(super) fn objects(&self) -> usize {
+        self.objects.len()
+    }
+
     /// Returns the scene. Missing or contradictory parts are reported in `mistakes`; after any mistake the scene is
     /// meaningless.
     pub(super) fn finish(mut self, source: &str, mistakes: &mut Sink) -> Scene {

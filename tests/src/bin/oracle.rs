@@ -1,4 +1,4 @@
-//! `oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray 1|4] [--samples K] [--max-depth D] [--cut-off C]`: renders a
+//! `oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray N] [--samples K] [--max-depth D] [--cut-off C]`: renders a
 //! scene with the oracle, writes the picture and prints the numbers of rays by kind.
 
 use std::error::Error;
@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use octray_tests::oracle::{Options, render};
 
-const USAGE: &str = "usage: oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray 1|4] [--samples K] [--max-depth D] [--cut-off C]";
+const USAGE: &str = "usage: oracle SCENE OUT.ppm [--size WxH] [--pixels-per-ray N] [--samples K] [--max-depth D] [--cut-off C]";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::malformed::malformed;
 use super::ras::RasDepth;
-use super::{Picture, pfm, png, ppm, ras};
+use super::{Picture, intensity, pfm, png, ppm, ras};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -11,27 +11,35 @@ use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, BufRead, BufReader, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
 /// A picture format, by its extension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, VariantArray, EnumMessage, EnumString, IntoStaticStr,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Format {
-    /// Portable Network Graphics, 8-bit RGB.
+    /// Portable Network Graphics, 8-bit RGB; animated if there are several pictures.
     Png,
     /// Portable pixmap P6, 8-bit RGB.
     Ppm,
-    /// Portable float map PF, little-endian, the bottom row first.
+    /// Portable float map PF: intensities, little-endian, the bottom row first.
     Pfm,
-    /// Sun rasterfile, see [`RasDepth`].
+    /// Sun rasterfile.
     Ras,
+    /// The thesis's intensity file: the place and the intensities of every pixel, as text.
+    Int,
 }
 
 impl Format {
     /// Every format with its extension.
-    pub const ALL: [(&str, Self); 4] = [
+    pub const ALL: [(&str, Self); 6] = [
         ("png", Self::Png),
+        ("apng", Self::Png),
         ("ppm", Self::Ppm),
         ("pfm", Self::Pfm),
         ("ras", Self::Ras),
+        ("int", Self::Int),
     ];
 
     /// The format that a file's extension names, whatever its case.
@@ -74,10 +82,8 @@ impl Target {
     /// # Errors
     /// As [`Format::of`]; if a picture would go to a terminal.
     pub fn new(path: PathBuf) -> Result<Self, String> {
+        not_to_terminal(&path)?;
         let is_stdout = output::is_stdout(&path);
-        if is_stdout && io::stdout().is_terminal() {
-            return Err("standard output is a terminal: expected a pipe or a file".into());
-        }
         let is_pipe = || fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         let format = match Format::of(&path) {
             Err(_) if is_stdout || is_pipe() => Format::Png,
@@ -86,9 +92,18 @@ impl Target {
         Ok(Self { path, format })
     }
 
+    /// The target that `path` names, in this format whatever the name says.
+    ///
+    /// # Errors
+    /// If a picture would go to a terminal.
+    pub fn in_format(path: PathBuf, format: Format) -> Result<Self, String> {
+        not_to_terminal(&path)?;
+        Ok(Self { path, format })
+    }
+
     /// Whether the format holds intensities rather than levels.
     pub fn holds_intensities(&self) -> bool {
-        self.format == Format::Pfm
+        matches!(self.format, Format::Pfm | Format::Int)
     }
 
     /// Write `picture` whole or not at all.
@@ -107,6 +122,13 @@ impl Target {
     }
 }
 
+fn not_to_terminal(path: &Path) -> Result<(), String> {
+    match output::is_stdout(path) && io::stdout().is_terminal() {
+        true => Err("standard output is a terminal: expected a pipe or a file".into()),
+        false => Ok(()),
+    }
+}
+
 fn encode(
     picture: &Picture,
     format: Format,
@@ -118,6 +140,7 @@ fn encode(
         Format::Ppm => ppm::write(picture, out),
         Format::Pfm => pfm::write(picture, out),
         Format::Ras => ras::write(picture, ras_depth, out),
+        Format::Int => intensity::write(picture, out),
     }
 }
 
@@ -145,9 +168,10 @@ pub fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
         [b'P', b'6', ..] => ppm::read(input),
         [b'P', b'F' | b'f', ..] => pfm::read(input),
         [0x59, 0xa6, 0x6a, 0x95, ..] => ras::read(input),
+        bytes if bytes.starts_with(intensity::MAGIC) => intensity::read(input),
         [] => Err(malformed("the file is empty")),
         _ => Err(malformed(
-            "not a picture known here (PNG, PPM P6, PFM or Sun rasterfile)",
+            "not a picture known here (PNG, PPM P6, PFM, Sun rasterfile or intensity file)",
         )),
     }
 }
@@ -155,6 +179,7 @@ pub fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::Dither;
     use crate::tile::Level;
 
     /// More than 256 colours, no symmetry.
@@ -183,9 +208,11 @@ mod tests {
         for (width, height) in [(1, 1), (3, 2), (4, 3), (17, 5), (16, 20)] {
             let picture = colourful(width, height);
             for (_, format) in Format::ALL {
-                let back = round_trip(&picture, format, RasDepth::TwentyFour);
-                assert_eq!(back.size(), (width, height), "{format:?}");
-                assert_eq!(back.levels(), picture.levels(), "{format:?}");
+                for depth in [RasDepth::TwentyFour, RasDepth::ThirtyTwo] {
+                    let back = round_trip(&picture, format, depth);
+                    assert_eq!(back.size(), (width, height), "{format:?}");
+                    assert_eq!(back.levels(), picture.levels(), "{format:?}");
+                }
             }
         }
     }
@@ -194,7 +221,7 @@ mod tests {
     fn a_damaged_file_is_read_or_refused_but_never_panics() {
         let picture = colourful(5, 4);
         for (_, format) in Format::ALL {
-            for depth in [RasDepth::Eight, RasDepth::TwentyFour] {
+            for depth in RasDepth::VARIANTS.iter().copied() {
                 let mut bytes = Vec::new();
                 encode(&picture, format, depth, &mut bytes).unwrap();
                 for place in 0..bytes.len().min(200) {
@@ -220,7 +247,19 @@ mod tests {
     fn intensities_survive_a_float_map_bit_for_bit() {
         let rgb = [[0.1, 0.2, 0.3], [1.5, -0.0, 1e-30], [0.999, 0.5, 0.25]];
         let picture = Picture::from_intensities(1, 3, rgb.to_vec()).unwrap();
-        assert_eq!(round_trip(&picture, Format::Pfm, RasDepth::Eight), picture);
+        for format in [Format::Pfm, Format::Int] {
+            assert_eq!(round_trip(&picture, format, RasDepth::Eight), picture);
+        }
+    }
+
+    #[test]
+    fn a_rasterfile_of_one_bit_is_the_dithered_picture_at_any_width() {
+        for (width, height) in [(1, 1), (7, 3), (8, 2), (16, 2), (17, 5), (31, 4)] {
+            let picture = colourful(width, height);
+            let back = round_trip(&picture, Format::Ras, RasDepth::One);
+            assert_eq!(back, Dither::Diffusion.apply(&picture));
+            assert_eq!(round_trip(&back, Format::Ras, RasDepth::One), back);
+        }
     }
 
     #[test]
@@ -228,7 +267,10 @@ mod tests {
         assert_eq!(Format::of(Path::new("a/b.PNG")), Ok(Format::Png));
         for name in ["a.bmp", "a", "png", "a.png/b"] {
             let text = Format::of(Path::new(name)).unwrap_err();
-            assert!(text.contains(".png, .ppm, .pfm, .ras"), "{text}");
+            assert!(
+                text.contains(".png, .apng, .ppm, .pfm, .ras, .int"),
+                "{text}"
+            );
         }
     }
 

@@ -3,7 +3,7 @@
 use super::Picture;
 use super::malformed::malformed;
 pub(super) use png::Compression;
-use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations};
+use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations, Writer};
 use std::io::{self, BufRead, Cursor, Read, Write};
 
 /// Write the levels.
@@ -23,6 +23,56 @@ pub(super) fn write(
     writer.write_image_data(picture.levels().as_flattened())?;
     writer.finish()?;
     Ok(())
+}
+
+/// An animated PNG (APNG) that is being written. Programs that know none show its first picture.
+#[expect(missing_debug_implementations, reason = "the encoder has none")]
+pub struct Animation<'a> {
+    writer: Writer<&'a mut dyn Write>,
+    size: (u32, u32),
+}
+
+impl<'a> Animation<'a> {
+    /// Begins a file of this many pictures of one size (columns, rows), shown over and over, so many in a second.
+    ///
+    /// # Errors
+    /// If it cannot be written, or has no pictures.
+    pub fn begin(
+        out: &'a mut dyn Write,
+        size: (u32, u32),
+        count: u32,
+        per_second: u16,
+    ) -> io::Result<Self> {
+        let mut encoder = Encoder::new(out, size.0, size.1);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Fast);
+        encoder.set_animated(count, 0)?;
+        encoder.validate_sequence(true);
+        encoder.set_frame_delay(1, per_second)?;
+        let writer = encoder.write_header()?;
+        Ok(Self { writer, size })
+    }
+
+    /// Adds the next picture.
+    ///
+    /// # Errors
+    /// If it cannot be written, is of another size, or is one too many.
+    pub fn add(&mut self, picture: &Picture) -> io::Result<()> {
+        if picture.size() != self.size {
+            return Err(io::Error::other("the pictures differ in size"));
+        }
+        (self.writer).write_image_data(picture.levels().as_flattened())?;
+        Ok(())
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// If it cannot be written, or pictures are missing.
+    pub fn finish(self) -> io::Result<()> {
+        Ok(self.writer.finish()?)
+    }
 }
 
 /// Bytes of signature and header, and what may come beside compressed pixels.
@@ -128,6 +178,29 @@ mod tests {
                 "{width} x {height}: {}",
                 used.bytes_max
             );
+        }
+    }
+
+    #[test]
+    fn an_animation_has_all_its_pictures_and_is_read_as_its_first() {
+        let picture = |level| Picture::from_levels(2, 1, vec![[level, 2, 3]; 2]).unwrap();
+        let mut bytes = Vec::new();
+        let mut animation = Animation::begin(&mut bytes, (2, 1), 3, 25).unwrap();
+        for level in [10, 20, 30] {
+            animation.add(&picture(level)).unwrap();
+        }
+        assert!(animation.add(&picture(0)).is_err());
+        animation.finish().unwrap();
+        assert_eq!(read(&mut &*bytes).unwrap(), picture(10));
+        let mut reader = decoder(&bytes).unwrap();
+        let frames = reader.info().animation_control().unwrap();
+        assert_eq!((frames.num_frames, frames.num_plays), (3, 0));
+        for level in [10, 20, 30] {
+            let mut pixels = [0; 6];
+            reader.next_frame(&mut pixels).unwrap();
+            assert_eq!(pixels, [level, 2, 3, level, 2, 3]);
+            let shown = reader.info().frame_control().unwrap();
+            assert_eq!((shown.delay_num, shown.delay_den), (1, 25));
         }
     }
 

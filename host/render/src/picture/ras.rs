@@ -1,7 +1,7 @@
 //! Sun rasterfile: eight big-endian words, a colour map, rows padded to 16 bits (Sun's `rasterfile(5)`).
 
 use super::malformed::malformed;
-use super::{Picture, palette};
+use super::{Dither, Picture, palette};
 use crate::tile::Level;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
@@ -12,6 +12,9 @@ use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 )]
 #[strum(serialize_all = "kebab-case")]
 pub enum RasDepth {
+    /// Black and white, what a pixel is off going to its neighbours.
+    #[strum(serialize = "1")]
+    One,
     /// 256 colours in a map; exact when the picture has no more.
     #[default]
     #[strum(serialize = "8")]
@@ -19,6 +22,9 @@ pub enum RasDepth {
     /// True colour.
     #[strum(serialize = "24")]
     TwentyFour,
+    /// True colour with an unused byte before each pixel.
+    #[strum(serialize = "32")]
+    ThirtyTwo,
 }
 
 const MAGIC: u32 = 0x59a6_6a95;
@@ -32,12 +38,28 @@ const RMT_EQUAL_RGB: u32 = 1;
 /// Colours in the map that is written.
 const COLOURS: usize = 256;
 
-/// Write the levels as `RT_STANDARD`, either through a map of 256 colours or as blue, green, red.
+/// Write the levels as `RT_STANDARD`: as bits, through a map of 256 colours, or as blue, green, red.
 pub(super) fn write(picture: &Picture, depth: RasDepth, out: &mut dyn Write) -> io::Result<()> {
     match depth {
         RasDepth::Eight => write_mapped(picture, out),
-        RasDepth::TwentyFour => write_true_colour(picture, out),
+        RasDepth::One => write_bits(picture, out),
+        RasDepth::TwentyFour => write_true_colour(picture, 24, out),
+        RasDepth::ThirtyTwo => write_true_colour(picture, 32, out),
     }
+}
+
+/// Without a map, a bit that is set is black.
+fn write_bits(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
+    write_header(picture, 1, 0, out)?;
+    let bits = Dither::Diffusion.bits(picture);
+    for row in bits.chunks_exact(picture.width() as usize) {
+        let byte = |white: &[bool]| {
+            let black = white.iter().enumerate().filter(|(_, white)| !**white);
+            black.fold(0, |byte, (i, _)| byte | 0x80 >> i)
+        };
+        write_row(&row.chunks(8).map(byte).collect::<Vec<u8>>(), out)?;
+    }
+    Ok(())
 }
 
 fn write_mapped(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
@@ -54,11 +76,16 @@ fn write_mapped(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-fn write_true_colour(picture: &Picture, out: &mut dyn Write) -> io::Result<()> {
-    write_header(picture, 24, 0, out)?;
+fn write_true_colour(picture: &Picture, depth: u32, out: &mut dyn Write) -> io::Result<()> {
+    write_header(picture, depth, 0, out)?;
+    let unused = if depth == 32 { &[0][..] } else { &[] };
     for row in picture.rows() {
-        let row: Vec<u8> = row.iter().flat_map(|[r, g, b]| [*b, *g, *r]).collect();
-        write_row(&row, out)?;
+        let mut bytes = Vec::with_capacity(4 * row.len());
+        for [r, g, b] in row {
+            bytes.extend_from_slice(unused);
+            bytes.extend([b, g, r]);
+        }
+        write_row(&bytes, out)?;
     }
     Ok(())
 }
@@ -96,7 +123,7 @@ fn row_bytes(width: u32, depth: u32) -> u64 {
     (u64::from(width) * u64::from(depth)).div_ceil(16) * 2
 }
 
-/// Read a rasterfile that is not run-length encoded, of 8, 24 or 32 bits a pixel.
+/// Read a rasterfile that is not run-length encoded, of 1, 8, 24 or 32 bits a pixel.
 pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
     let mut header = [0; 8];
     for word in &mut header {
@@ -113,7 +140,7 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
             "rasterfiles of type {kind} are not read, only raw ones (0, 1 and 3)"
         )));
     }
-    let map = read_map(input, map_type, map_bytes)?;
+    let map = read_map(input, depth, map_type, map_bytes)?;
     let red_first = kind == RT_FORMAT_RGB;
     let pixel = |bytes: &[u8]| -> Option<Level> {
         match *bytes {
@@ -123,12 +150,13 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
             _ => None,
         }
     };
-    if !matches!(depth, 8 | 24 | 32) || (depth > 8 && map_bytes > 0) {
+    if !matches!(depth, 1 | 8 | 24 | 32) || (depth > 8 && map_bytes > 0) {
         return Err(malformed(format!(
             "rasterfiles of {depth} bits with a map of {map_bytes} bytes are not read"
         )));
     }
     let used = width as usize * depth as usize / 8;
+    let no_colour = || malformed("a pixel's colour is not in the map");
     let mut levels = Vec::new();
     let mut row = Vec::new();
     for _ in 0..height {
@@ -137,16 +165,30 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
         if input.take(wanted).read_to_end(&mut row)? as u64 != wanted {
             return Err(ErrorKind::UnexpectedEof.into());
         }
+        if depth == 1 {
+            let bit = |x: usize| map.get(usize::from(row[x / 8] >> (7 - x % 8) & 1));
+            for x in 0..width as usize {
+                levels.push(*bit(x).ok_or_else(no_colour)?);
+            }
+            continue;
+        }
         for bytes in row[..used].chunks_exact(depth as usize / 8) {
-            levels
-                .push(pixel(bytes).ok_or_else(|| malformed("a pixel's colour is not in the map"))?);
+            levels.push(pixel(bytes).ok_or_else(no_colour)?);
         }
     }
     Picture::from_levels(width, height, levels).ok_or_else(|| malformed("the picture is cut short"))
 }
 
-/// The colour map, or the greys where there is none.
-fn read_map(input: &mut dyn BufRead, map_type: u32, bytes: u32) -> io::Result<Vec<Level>> {
+/// The colour map, or what holds where there is none: white and black for bits, else the greys.
+fn read_map(
+    input: &mut dyn BufRead,
+    depth: u32,
+    map_type: u32,
+    bytes: u32,
+) -> io::Result<Vec<Level>> {
+    if bytes == 0 && depth == 1 {
+        return Ok(vec![[255; 3], [0; 3]]);
+    }
     if bytes == 0 {
         return Ok((0..=255).map(|grey| [grey; 3]).collect());
     }
@@ -190,5 +232,30 @@ mod tests {
             [0, 0, 0, 24, 0, 0, 0, 8, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]
         );
         assert_eq!(colour[32..], [3, 2, 1, 0, 6, 5, 4, 0]);
+
+        let mut wide = Vec::new();
+        write(&picture, RasDepth::ThirtyTwo, &mut wide).unwrap();
+        assert_eq!(wide[12..20], [0, 0, 0, 32, 0, 0, 0, 8]);
+        assert_eq!(wide[32..], [0, 3, 2, 1, 0, 6, 5, 4]);
+
+        // Nine pixels: black, white, black, six times white.
+        let levels = [0, 255, 0, 255, 255, 255, 255, 255, 255].map(|level| [level; 3]);
+        let picture = Picture::from_levels(9, 1, levels.to_vec()).unwrap();
+        let mut bits = Vec::new();
+        write(&picture, RasDepth::One, &mut bits).unwrap();
+        assert_eq!(bits[12..20], [0, 0, 0, 1, 0, 0, 0, 2]);
+        assert_eq!(bits[32..], [0b1010_0000, 0]);
+    }
+
+    #[test]
+    fn bits_are_read_through_a_map_if_there_is_one() {
+        let picture = Picture::from_levels(3, 1, vec![[0; 3], [255; 3], [0; 3]]).unwrap();
+        let mut bytes = Vec::new();
+        write(&picture, RasDepth::One, &mut bytes).unwrap();
+        (bytes[27], bytes[31]) = (1, 6);
+        // Reds, greens, blues of 0 and of 1.
+        bytes.splice(32..32, [10, 20, 30, 40, 50, 60]);
+        let read = read(&mut &*bytes).unwrap();
+        assert_eq!(read.levels(), [[20, 40, 60], [10, 30, 50], [20, 40, 60]]);
     }
 }

@@ -130,7 +130,9 @@ impl ChartArgs {
             ));
         }
         if grid.settings(self.size).is_empty() {
-            return usage("--pixels-per-ray 4 and --samples above 1 contradict each other".into());
+            return usage(
+                "--pixels-per-ray and --samples, both above 1, contradict each other".into(),
+            );
         }
         if let Some(board) = on_board.map(|kind| kind.name()) {
             if let Some(tree) = grid

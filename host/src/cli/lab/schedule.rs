@@ -1,7 +1,7 @@
 //! Arguments of `octray schedule`.
 
 use super::lists;
-use crate::cli::{files, value};
+use crate::cli::{ReductionArgs, files, value};
 use clap::{Args, value_parser};
 use octray_lab::canvas;
 use octray_lab::schedule::ScheduleJob;
@@ -41,7 +41,7 @@ pub struct ScheduleArgs {
     /// The arithmetic to trace in
     #[arg(long, value_name = "NAME", value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Arith,
-    /// Pixels that one ray colours; with 4, tiles with odd sides are left out
+    /// Pixels that one ray colours; tiles that would cut such a square are left out
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel
@@ -53,6 +53,8 @@ pub struct ScheduleArgs {
     /// The accelerator
     #[arg(long, value_name = "KIND", value_parser = value::choice::<TreeKind>(), default_value = TreeKind::default().name())]
     tree: TreeKind,
+    #[command(flatten)]
+    reduction: ReductionArgs,
     /// Instructions for which handing out a tile from a shared queue blocks the other processors
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     hand_out: f64,
@@ -84,7 +86,7 @@ impl ScheduleArgs {
     /// Returns the job.
     ///
     /// # Errors
-    /// [`Error::Usage`] if no tile is left with four pixels per ray, if a result would replace the scene or another
+    /// [`Error::Usage`] if no tile is left with so many pixels per ray, if a result would replace the scene or another
     /// result, or if the chart's extension is unknown.
     pub fn job(self) -> Result<ScheduleJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
@@ -93,8 +95,8 @@ impl ScheduleArgs {
         if let Some(path) = self.output.iter().find(|path| !canvas::is_svg(path)) {
             Target::new(path.clone()).map_err(Error::Usage)?;
         }
-        let even = self.pixels_per_ray == PixelsPerRay::Four;
-        let fits = |side: &NonZeroU32| !even || side.get().is_multiple_of(2);
+        let block = self.pixels_per_ray.side();
+        let fits = |side: &NonZeroU32| side.get().is_multiple_of(block);
         let strips = self.tile_rows.0.into_iter().filter(fits);
         let tiles = self
             .tile_sides
@@ -104,13 +106,15 @@ impl ScheduleArgs {
             .map(TileSize::tile);
         let shapes: Vec<_> = strips.map(TileSize::strip).chain(tiles).collect();
         if shapes.is_empty() {
-            return usage(
-                "with --pixels-per-ray 4, a side of --tile-rows or --tile-sides must be even",
-            );
+            return usage(&format!(
+                "with --pixels-per-ray {}, a side of --tile-rows or --tile-sides must be a multiple of {block}",
+                self.pixels_per_ray.number()
+            ));
         }
         let processors = self.processors.0.into_iter();
         Ok(ScheduleJob {
             scene: self.scene,
+            reduction: self.reduction.reduction(),
             processors: processors
                 .filter_map(|count: NonZeroU32| NonZeroUsize::try_from(count).ok())
                 .collect(),
