@@ -3,6 +3,8 @@
 //! | variable | what | default |
 //! | --- | --- | --- |
 //! | `OCTRAY_SCENE` | the scene file, relative to the workspace | `scenes/figure-22.scene` |
+//! | `OCTRAY_LIGHTS` | how many of its first lights are kept | all |
+//! | `OCTRAY_OPAQUE` | `1`: no surface reflects or refracts | `0` |
 //! | `OCTRAY_ARITH` | the arithmetic | `auto` |
 //! | `OCTRAY_SIZE` | columns x rows | `160x120` |
 //! | `OCTRAY_TREE` | `compact-bvh8`, `device` (the same, built on the board), `none`, or `auto`: the cheaper one |
@@ -12,8 +14,8 @@
 //! test, otherwise 2 |
 //! | `OCTRAY_PIXELS_PER_RAY` | 1, or 4 in squares of two by two | 1 |
 //! | `OCTRAY_CUT_OFF` | rays of a smaller weight, from 0 to 1, are not traced | 1/512 |
-//! | `OCTRAY_PLAN` | a plan of `octray plan --emit` for this scene, which replaces all settings above except the scene
-//! | none |
+//! | `OCTRAY_PLAN` | a plan of `octray plan --emit` for this scene, which replaces all settings above except the
+//! scene and what is left out of it | none |
 //! | `OCTRAY_BOARD` | RISC-V only: `virt` or `sifive_e` | `virt` |
 
 use octray_prepare::bake::{BakeOptions, bake};
@@ -21,6 +23,7 @@ use octray_prepare::choice::Choice;
 use octray_prepare::plan::{Plan, PlanError};
 use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings, TreeSettings};
 use octray_scenes::model::Scene;
+use octray_scenes::reduce::Reduction;
 use std::num::NonZeroU32;
 use std::path::Path;
 use std::{env, fs, process};
@@ -85,7 +88,8 @@ fn run() -> Result<(), String> {
 fn baked() -> Result<String, String> {
     let path = Path::new("..").join(variable("OCTRAY_SCENE", "scenes/figure-22.scene"));
     println!("cargo::rerun-if-changed={}", path.display());
-    let scene = octray_scenes::read(&path).map_err(|error| error.to_string())?;
+    let mut scene = octray_scenes::read(&path).map_err(|error| error.to_string())?;
+    (reduction()?.apply(&mut scene)).map_err(|error| format!("OCTRAY_LIGHTS: {error}"))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let plan = variable("OCTRAY_PLAN", "");
     if !plan.is_empty() {
@@ -125,6 +129,25 @@ fn baked() -> Result<String, String> {
         rays: None,
     };
     baked_as(&scene, &options)
+}
+
+fn reduction() -> Result<Reduction, String> {
+    let lights = variable("OCTRAY_LIGHTS", "");
+    let opaque = variable("OCTRAY_OPAQUE", "0");
+    Ok(Reduction {
+        lights: match &*lights {
+            "" => None,
+            text => Some(
+                (text.parse())
+                    .map_err(|_| format!("OCTRAY_LIGHTS={text}: expected a number"))?,
+            ),
+        },
+        opaque: match &*opaque {
+            "0" => false,
+            "1" => true,
+            other => return Err(format!("OCTRAY_OPAQUE={other}: expected 0 or 1")),
+        },
+    })
 }
 
 fn cut_off() -> Result<f64, String> {

@@ -30,8 +30,26 @@ fn the_best_tiles_are_printed_for_each_number_of_processors() {
 | 1          | tiles  | 1.00 (4 x 4 pixels) | 1.00 (4 x 4 pixels) |
 | 2          | strips |        1.94 (1 row) |        1.97 (1 row) |
 | 2          | tiles  | 2.00 (4 x 4 pixels) | 2.00 (4 x 4 pixels) |
+worth it: 2 processors, 2.00 times as fast as one ([..], 4 x 4 pixels); more were not tried
 
 "#]]);
+}
+
+#[test]
+fn how_many_processors_are_worth_it_is_answered() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.scene"), SCENE).unwrap();
+    let line = "schedule a.scene --processors 1..64 --tile-rows 1 --tiles 4 --coherence 0.001";
+    let output = octray(folder.path(), line).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let answer: Vec<&str> = text.lines().rev().take(2).collect();
+    // n / (1 + 0.001 n (n - 1)): from 16 to 32 processors it grows by 3.0, and then it falls.
+    assert!(answer[1].starts_with("worth it: 16 processors, 12."), "{text}");
+    assert!(answer[0].starts_with("fastest:  32 processors, 1"), "{text}");
+    let object = octray(folder.path(), &format!("{line} --json")).output().unwrap();
+    let object: serde_json::Value = serde_json::from_slice(&object.stdout).unwrap();
+    assert_eq!(object["worth"]["processors"], 16);
+    assert_eq!(object["peak"]["processors"], 32);
 }
 
 #[test]

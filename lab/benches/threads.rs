@@ -227,6 +227,7 @@ impl Subject {
         let machine = Machine {
             hand_out: HAND_OUT,
             contention,
+            coherence: 0.0,
             ..Machine::default()
         };
         Ok(simulate(&costs, &deal, &machine).speed_up)

@@ -26,6 +26,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
+use octray_scenes::reduce::Reduction;
 use point::{Panel, Wishes};
 use setting::Grid;
 use std::num::NonZeroUsize;
@@ -86,7 +87,7 @@ pub fn run(job: &ChartJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// # Errors
 /// If a tool is missing, a scene is refused, or there is no point.
 pub fn measure(job: &ChartJob, interrupt: &Interrupt) -> Result<Vec<Panel>, Error> {
-    let scenes = frames::scenes(&job.scenes)?;
+    let scenes = frames::scenes(&job.scenes, Reduction::default())?;
     // A missing tool is reported before any work.
     let meter = Meter::new(job, &job.costs, interrupt)?;
     panels(&judge(scenes, job, interrupt)?, job, &job.costs, &meter)

@@ -72,7 +72,7 @@ pub fn run(job: &MeasureJob, interrupt: &Interrupt) -> Result<(), Error> {
 /// fails states why.
 pub fn measure(job: &MeasureJob, interrupt: &Interrupt) -> Result<MeasureReport<FrameRow>, Error> {
     let root = SourceTree::root()?;
-    let scenes = frames::scenes(&job.scenes)?.into_iter();
+    let scenes = frames::scenes(&job.scenes, job.reduction)?.into_iter();
     let scenes: Vec<NamedScene> = scenes.map(|(_, scene)| scene).collect();
     board::require(&job.boards, &root)?;
     let sources = SourceTree::open(root)?;

@@ -18,6 +18,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use octray_scenes::name::Shown;
+use octray_scenes::reduce::Reduction;
 use octray_stability::method::Method;
 use page::Section;
 use std::num::NonZeroUsize;
@@ -47,7 +48,7 @@ pub struct ReportJob {
 /// missing, the page says so.
 pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::probe(&job.output)?;
-    let scenes = frames::scenes(&job.chart.scenes)?;
+    let scenes = frames::scenes(&job.chart.scenes, Reduction::default())?;
     let progress = Bar::new("rendering");
     progress.start(scenes.len() * job.ariths.len());
     let pictures = (scenes.iter().enumerate())

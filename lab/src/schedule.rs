@@ -95,10 +95,16 @@ pub fn run(job: &ScheduleJob, interrupt: &Interrupt) -> Result<(), Error> {
         true => {
             let total = map.total();
             let scene = job.scene.display().to_string();
-            let object = serde_json::json!({"scene": scene, "instructions": total, "runs": runs});
+            let (peak, worth) = (best(&runs, |_| true), worth(job, &runs));
+            let object = serde_json::json!({
+                "scene": scene, "instructions": total, "peak": peak, "worth": worth, "runs": runs
+            });
             writeln!(out, "{object}")
         }
-        false if map.total() > 0.0 => writeln!(out, "{}", table(job, &runs)),
+        false if map.total() > 0.0 => {
+            writeln!(out, "{}", table(job, &runs))?;
+            write_answer(job, &runs, out)
+        }
         false => writeln!(out, "nothing to share: {}", scene_file::NOTHING_IN_SIGHT),
     })
 }
@@ -176,6 +182,59 @@ fn write_csv(runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
 fn best(runs: &[Run], fits: impl Fn(&Run) -> bool) -> Option<&Run> {
     let runs = runs.iter().filter(|run| fits(run)).rev();
     runs.max_by(|a, b| f64::total_cmp(&a.outcome.speed_up, &b.outcome.speed_up))
+}
+
+/// A further processor must add at least this share of a processor to be worth it.
+const WORTH: f64 = 0.5;
+
+/// Returns the run with the most processors that are worth it: up to them, each further one adds at least [`WORTH`] to
+/// the best speed-up, on average since the number before.
+fn worth<'a>(job: &ScheduleJob, runs: &'a [Run]) -> Option<&'a Run> {
+    let mut numbers = job.processors.clone();
+    numbers.sort_unstable();
+    let with = |processors| best(runs, |run| run.processors == processors);
+    let mut found: Option<&Run> = None;
+    for run in numbers.into_iter().filter_map(with) {
+        if let Some(before) = found {
+            let further = run.processors.get() - before.processors.get();
+            let gain = run.outcome.speed_up - before.outcome.speed_up;
+            if gain < WORTH * further as f64 {
+                break;
+            }
+        }
+        found = Some(run);
+    }
+    found
+}
+
+/// Answers how many processors are worth it.
+fn write_answer(job: &ScheduleJob, runs: &[Run], out: &mut dyn io::Write) -> io::Result<()> {
+    let (Some(peak), Some(worth)) = (best(runs, |_| true), worth(job, runs)) else {
+        return Ok(());
+    };
+    let told = |run: &Run| {
+        format!(
+            "{} processors, {:.2} times as fast as one ({}, {})",
+            run.processors,
+            run.outcome.speed_up,
+            run.policy.name(),
+            run.tile
+        )
+    };
+    let more = match job.processors.iter().any(|n| *n > worth.processors) {
+        true => "",
+        false => "; more were not tried",
+    };
+    writeln!(out, "worth it: {}{more}", told(worth))?;
+    if peak.processors > worth.processors {
+        writeln!(
+            out,
+            "fastest:  {}; of those beyond {}, each adds less than half a processor",
+            told(peak),
+            worth.processors
+        )?;
+    }
+    Ok(())
 }
 
 /// Formats a table: per number of processors the best speed-up of each schedule, in strips and in tiles, and the size.

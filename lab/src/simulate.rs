@@ -20,8 +20,12 @@ pub struct Machine {
     /// How long handing out a tile from a shared queue blocks other hand-outs.
     pub hand_out: f64,
     /// The relative slowdown of all processors per further busy processor, as on a bus: each of `n` runs at 1 / (1 +
-    /// contention · (n − 1)).
+    /// contention · (n − 1) + coherence · n · (n − 1)).
     pub contention: f64,
+    /// The relative slowdown of all processors per pair of busy processors and direction, as by caches that are kept
+    /// alike. With it the speed-up has a peak, at √((1 − contention) / coherence) processors (Gunther, *Guerrilla Capacity
+    /// Planning*, 2007, equation 4.10).
+    pub coherence: f64,
     /// Work that only one processor can do, before the others begin (Amdahl).
     pub serial: f64,
 }
@@ -74,7 +78,8 @@ pub fn simulate_messages(
     let mut since = 0.0;
     for (done, end) in ends.iter().enumerate() {
         let others = (processors - done - 1) as f64;
-        parallel += (end - since) * (1.0 + machine.contention * others);
+        let slower = machine.contention + machine.coherence * (others + 1.0);
+        parallel += (end - since) * (1.0 + slower * others);
         since = *end;
     }
     let alone = machine.serial + costs.iter().sum::<f64>();

@@ -1,14 +1,12 @@
 //! `octray tables`: the tables of the thesis, I to IX, from our own runs beside its numbers.
 //!
 //! In the order of the data: [`runs`] traces variants of a [`subject`]. From the counts, [`octrees`] makes
-//! table I (with [`plane`]), [`traced`] II (with [`agreement`]) and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`; [`shared`]
-//! simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`];
+//! table I (with [`plane`]), [`traced`] II and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`;
+//! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`];
 //! VIII and IX also become [`chart`]s.
 
-pub mod agreement;
 pub mod chart;
 pub mod emulated;
-
 pub mod number;
 pub mod octrees;
 pub mod plane;
@@ -29,7 +27,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use runs::Runs;
-use shared::{Figure, Outcomes, Simulation};
+use shared::{Figure, MOST_PROCESSORS, Outcomes, PROCESSORS, Simulation};
 use std::path::PathBuf;
 use std::{fs, io};
 use table::Table;
@@ -105,31 +103,27 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     for number in &job.tables {
         let draft = match number {
             TableNumber::One => octrees::one(&runs)?,
-            TableNumber::Two => traced::two(&runs, &thesis)?,
-            TableNumber::Three => emulated::three(job.record.as_deref())?,
+            TableNumber::Two => traced::two(&runs)?,
+            TableNumber::Three => emulated::three(job.record.as_deref(), &runs)?,
             TableNumber::Four => traced::four(&runs)?,
-            TableNumber::Five => traced::five(&runs, &thesis)?,
+            TableNumber::Five => traced::five(&runs)?,
             TableNumber::Six => traced::six(&runs)?,
             TableNumber::Seven => traced::seven(&runs)?,
             TableNumber::Eight => {
                 let outcomes = Outcomes::by_rows(&figures, simulation);
-                draw(
-                    job,
-                    "figure-24",
-                    &Chart::of_rows(&outcomes, simulation),
-                    interrupt,
-                )?;
-                shared::eight(&outcomes, simulation)
+                let chart = Chart::of_rows(&outcomes, simulation);
+                draw(job, "figure-24", &chart, interrupt)?;
+                shared::eight(&outcomes, simulation, runs.size.is_none())
             }
             TableNumber::Nine => {
-                let outcomes = Outcomes::by_processors(&figures, simulation);
-                draw(
-                    job,
-                    "figure-25",
-                    &Chart::of_processors(&outcomes, simulation),
-                    interrupt,
-                )?;
-                shared::nine(&outcomes, simulation)
+                if job.charts.is_some() {
+                    let across: Vec<u32> = (1..=MOST_PROCESSORS).collect();
+                    let outcomes = Outcomes::by_processors(&figures, &across, simulation);
+                    let chart = Chart::of_processors(&outcomes, simulation);
+                    draw(job, "figure-25", &chart, interrupt)?;
+                }
+                let outcomes = Outcomes::by_processors(&figures, &PROCESSORS, simulation);
+                shared::nine(&outcomes, &figures, simulation, runs.size.is_none())
             }
         };
         tables.push(draft.beside(&thesis));

@@ -15,6 +15,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
 use octray_render::render::Rendering;
 use octray_render::scene_file;
+use octray_scenes::reduce::Reduction;
 use octray_scenes::model::Scene;
 use octray_scenes::name;
 use std::fs;
@@ -30,22 +31,25 @@ pub struct NamedScene {
     pub name: String,
     /// The file, relative to the root.
     pub path: PathBuf,
+    /// What was left out of the file's scene.
+    pub reduction: Reduction,
     /// The scene.
     pub scene: Scene,
 }
 
 impl NamedScene {
-    /// Reads a scene file.
+    /// Reads a scene file, and leaves out what is said.
     ///
     /// # Errors
-    /// If it cannot be read, or has mistakes.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let scene = scene_file::read(path)?;
+    /// If it cannot be read, has mistakes, or too few lights.
+    pub fn read(path: &Path, reduction: Reduction) -> Result<Self, Error> {
+        let scene = scene_file::read_reduced(path, reduction)?;
         let path = fs::canonicalize(path).map_err(|cause| Error::read(path, cause))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self {
             name: name::line(&name),
             path: path.clone(),
+            reduction,
             scene,
         })
     }
@@ -54,9 +58,9 @@ impl NamedScene {
 /// Reads the named scenes, or the five figures of octray's sources. Each is returned with its path for output.
 ///
 /// # Errors
-/// If one cannot be read, or has mistakes.
-pub fn scenes(named: &[PathBuf]) -> Result<Vec<(PathBuf, NamedScene)>, Error> {
-    let read = |name: PathBuf, path: &Path| Ok((name, NamedScene::read(path)?));
+/// If one cannot be read, has mistakes, or too few lights.
+pub fn scenes(named: &[PathBuf], reduction: Reduction) -> Result<Vec<(PathBuf, NamedScene)>, Error> {
+    let read = |name: PathBuf, path: &Path| Ok((name, NamedScene::read(path, reduction)?));
     if !named.is_empty() {
         let named = named.iter();
         return named.map(|path| read(path.clone(), path)).collect();
@@ -141,8 +145,7 @@ impl Bench<'_> {
         job: &MeasureJob,
         reference: &Reference,
     ) -> Result<Result<(Cost, Functions), String>, Error> {
-        let source = scene.path.to_string_lossy();
-        let program = match self.firmware(&source, arith, board, &job.settings, job.build)? {
+        let program = match self.firmware(scene, arith, board, &job.settings, job.build)? {
             Ok(program) => program,
             Err(why) => return Ok(Err(format!("not built: {why}"))),
         };
@@ -170,7 +173,7 @@ impl Bench<'_> {
     /// Builds the firmware.
     fn firmware(
         &self,
-        scene: &str,
+        scene: &NamedScene,
         arith: Arith,
         board: &Board,
         settings: &RenderSettings,
@@ -181,8 +184,13 @@ impl Bench<'_> {
         let depth = settings.max_depth.to_string();
         let pixels = settings.pixels_per_ray.number().to_string();
         let cut_off = settings.cut_off.to_string();
+        let path = scene.path.to_string_lossy();
+        let lights = scene.scene.lights.len().to_string();
+        let opaque = u8::from(scene.reduction.opaque).to_string();
         let variables = [
-            ("OCTRAY_SCENE", scene),
+            ("OCTRAY_SCENE", &*path),
+            ("OCTRAY_LIGHTS", &lights),
+            ("OCTRAY_OPAQUE", &opaque),
             ("OCTRAY_ARITH", arith.name()),
             ("OCTRAY_SIZE", &size),
             ("OCTRAY_MAX_DEPTH", &depth),
@@ -208,6 +216,8 @@ fn row(scene: &NamedScene, arith: Arith, board: &'static Board, job: &MeasureJob
     FrameRow {
         scene: scene.name.clone(),
         objects: scene.scene.objects.len(),
+        lights: scene.scene.lights.len(),
+        opaque: scene.reduction.opaque,
         width: job.settings.size.map_or(0, |size| size.0),
         height: job.settings.size.map_or(0, |size| size.1),
         max_depth: job.settings.max_depth,

@@ -2,6 +2,7 @@
 
 use super::board::Board;
 use octray_prepare::{Arith, FirmwareTree, RenderSettings};
+use octray_scenes::reduce::Reduction;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -14,6 +15,8 @@ pub struct MeasureJob {
     pub kernels: bool,
     /// The scene files; the five figures if empty.
     pub scenes: Vec<PathBuf>,
+    /// What is left out of them.
+    pub reduction: Reduction,
     /// The boards.
     pub boards: Vec<&'static Board>,
     /// The arithmetics.

@@ -17,6 +17,10 @@ pub struct FrameRow {
     pub scene: String,
     /// The number of its objects.
     pub objects: usize,
+    /// The number of its lights that were kept.
+    pub lights: usize,
+    /// Whether nothing reflected or refracted.
+    pub opaque: bool,
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -46,9 +50,11 @@ pub struct FrameRow {
 }
 
 /// The columns of comma-separated values: those of every row, in order.
-pub const COLUMNS: [&str; 39] = [
+pub const COLUMNS: [&str; 41] = [
     "scene",
     "objects",
+    "lights",
+    "opaque",
     "width",
     "height",
     "max_depth",

@@ -37,8 +37,8 @@ pub struct Chart<'a> {
     pub upwards: &'static str,
     /// What is drawn of an outcome.
     pub value: fn(&Outcome) -> f64,
-    /// Whether as much as there are processors is marked.
-    pub ideal: bool,
+    /// Whether it is a speed-up: then as much as there are processors is drawn, and the peak is marked.
+    pub speed_up: bool,
     /// What came out.
     pub outcomes: &'a Outcomes,
 }
@@ -80,7 +80,7 @@ impl<'a> Chart<'a> {
             across: "H",
             upwards: "time, M instructions",
             value: |outcome| outcome.time / 1e6,
-            ideal: false,
+            speed_up: false,
             outcomes,
         }
     }
@@ -89,11 +89,14 @@ impl<'a> Chart<'a> {
     pub fn of_processors(outcomes: &'a Outcomes, simulation: &Simulation) -> Self {
         let rows = simulation.rows;
         Self {
-            title: format!("Figure 25: speed-up against processors, in tiles of H = {rows} rows"),
+            title: format!(
+                "Figure 25: speed-up rises, peaks and falls; tiles of H = {rows} rows, coherence {}",
+                simulation.machine.coherence
+            ),
             across: "processors",
             upwards: "speed-up",
             value: |outcome| outcome.speed_up,
-            ideal: true,
+            speed_up: true,
             outcomes,
         }
     }
@@ -108,22 +111,18 @@ impl Chart<'_> {
         both: &[[Outcome; 2]],
         (left, top): (i32, i32),
     ) -> Drawn<B> {
+        let across = &self.outcomes.across;
         let values = |policy: usize| both.iter().map(move |both| (self.value)(&both[policy]));
-        let ideal = self
-            .ideal
-            .then(|| self.outcomes.across.iter().map(|n| f64::from(*n)));
-        let ideal: Vec<f64> = ideal.into_iter().flatten().collect();
-        let most = (values(0).chain(values(1)).chain(ideal.iter().copied())).fold(0.0, f64::max);
+        let most = values(0).chain(values(1)).fold(0.0, f64::max);
         let (step, steps) = scale(most);
         let floor = top + HEIGHT;
         let height = |value: f64| {
             let share = value / (step * f64::from(steps));
             floor - (share * f64::from(HEIGHT)).round() as i32
         };
-        let place = |i: usize| {
-            let gaps = self.outcomes.across.len().max(2) as i32 - 1;
-            left + 12 + i as i32 * (WIDTH - 24) / gaps
-        };
+        let last = across.len().max(2) as f64 - 1.0;
+        // Speed-ups stand where their number of processors is, the others one beside the other.
+        let place = |i: usize| left + 12 + (i as f64 / last * f64::from(WIDTH - 24)).round() as i32;
         write(area, name, (left, top - 22), 16, HPos::Left)?;
         for i in 0..=steps {
             let value = f64::from(i) * step;
@@ -131,7 +130,8 @@ impl Chart<'_> {
             area.draw(&PathElement::new([(left, y), (left + WIDTH, y)], GRID))?;
             write(area, &label(value), (left - 6, y - 7), 13, HPos::Right)?;
         }
-        for (i, across) in self.outcomes.across.iter().enumerate() {
+        let labelled = |i: usize| !self.speed_up || across[i] == 1 || across[i].is_multiple_of(16);
+        for (i, across) in across.iter().enumerate().filter(|(i, _)| labelled(*i)) {
             let x = place(i);
             area.draw(&PathElement::new([(x, floor), (x, floor + 4)], BLACK))?;
             write(area, &across.to_string(), (x, floor + 6), 13, HPos::Center)?;
@@ -148,11 +148,23 @@ impl Chart<'_> {
                 .map(|(i, value)| (place(i), height(value)))
                 .collect()
         };
-        if !ideal.is_empty() {
-            area.draw(&PathElement::new(line(&mut ideal.into_iter()), PALE))?;
+        if self.speed_up {
+            let shown = across.iter().map(|n| f64::from(*n));
+            let shown = shown.take_while(|n| *n <= step * f64::from(steps));
+            area.draw(&PathElement::new(line(&mut shown.into_iter()), PALE))?;
         }
         for policy in 0..POLICIES.len() {
-            curve(area, policy, line(&mut values(policy)))?;
+            curve(area, policy, line(&mut values(policy)), !self.speed_up)?;
+        }
+        if self.speed_up
+            && let Some((best, value)) = Outcomes::best(both, across, 1)
+            && let Some(i) = across.iter().position(|n| *n == best)
+        {
+            let (x, y) = (place(i), height(value));
+            area.draw(&PathElement::new([(x, y), (x, floor)], PALE))?;
+            area.draw(&Circle::new((x, y), 5, BLACK.filled()))?;
+            let text = format!("{value:.1} with {best}");
+            write(area, &text, (x, y - 22), 14, HPos::Center)?;
         }
         Ok(())
     }
@@ -160,7 +172,8 @@ impl Chart<'_> {
     fn legend<B: DrawingBackend>(&self, area: &Area<'_, B>, (left, top): (i32, i32)) -> Drawn<B> {
         write(area, self.upwards, (left, top - 22), 16, HPos::Left)?;
         for (policy, y) in (0..POLICIES.len()).zip((top + 16..).step_by(28)) {
-            curve(area, policy, [0, 30, 60].map(|x| (left + x, y)).to_vec())?;
+            let points = [0, 30, 60].map(|x| (left + x, y)).to_vec();
+            curve(area, policy, points, !self.speed_up)?;
             write(
                 area,
                 POLICIES[policy].name(),
@@ -169,7 +182,7 @@ impl Chart<'_> {
                 HPos::Left,
             )?;
         }
-        if self.ideal {
+        if self.speed_up {
             let y = top + 16 + 28 * POLICIES.len() as i32;
             area.draw(&PathElement::new([(left, y), (left + 60, y)], PALE))?;
             write(
@@ -184,22 +197,24 @@ impl Chart<'_> {
     }
 }
 
-/// Static dealing is dashed with hollow circles, dynamic dealing has full squares.
+/// Static dealing is dashed with hollow circles, dynamic dealing has full squares; without `marks` only the lines.
 fn curve<B: DrawingBackend>(
     area: &Area<'_, B>,
     policy: usize,
     points: Vec<(i32, i32)>,
+    marks: bool,
 ) -> Drawn<B> {
+    let marked = || points.iter().copied().filter(|_| marks);
     if policy == 0 {
         area.draw(&DashedPathElement::new(points.clone(), 6, 4, BLACK))?;
-        for point in points {
+        for point in marked() {
             area.draw(&Circle::new(point, 5, WHITE.filled()))?;
             area.draw(&Circle::new(point, 5, BLACK))?;
         }
         return Ok(());
     }
     area.draw(&PathElement::new(points.clone(), BLACK.stroke_width(2)))?;
-    for (x, y) in points {
+    for (x, y) in marked() {
         area.draw(&Rectangle::new(
             [(x - 3, y - 3), (x + 3, y + 3)],
             BLACK.filled(),
@@ -257,7 +272,7 @@ mod tests {
             efficiency: 1.0,
         };
         let outcomes = Outcomes {
-            across: &[2, 4],
+            across: vec![2, 4],
             figures: vec![("figure-19", vec![[outcome(30.0), outcome(20.0)]; 2])],
         };
         let simulation = Simulation {

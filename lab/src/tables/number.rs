@@ -95,7 +95,7 @@ impl TableNumber {
         match self {
             Self::One => "octree",
             Self::Two => "lights",
-            Self::Three => "unit",
+            Self::Three => "conditions, floating-point unit",
             Self::Four | Self::Five => "surfaces",
             Self::Six => "resolution",
             Self::Seven => "pixels per ray",

@@ -19,18 +19,19 @@ const TREES: [(TreeKind, OctreeVariant); 2] = [
 
 /// The columns: those of the thesis, and what each walk visits.
 const COLUMNS: [Quantity; 6] = [
-    Quantity::count("voxel tests"),
-    Quantity::count("surface tests"),
-    Quantity::count("nodes"),
-    visits("node visits, ordered"),
-    visits("neighbour"),
-    visits("links"),
+    compared("voxel tests"),
+    compared("surface tests"),
+    compared("nodes"),
+    Quantity::count("node visits, ordered"),
+    Quantity::count("neighbour"),
+    Quantity::count("links"),
 ];
 
-const fn visits(name: &'static str) -> Quantity {
+/// A count that is the thesis's for its three rays.
+const fn compared(name: &'static str) -> Quantity {
     Quantity {
-        ratio: false,
-        ..Quantity::count(name)
+        ratio: true,
+        ..Quantity::rays(name, 0.0)
     }
 }
 
@@ -43,7 +44,7 @@ const MEASURED: [Quantity; 3] = [
 const fn measured(name: &'static str) -> Quantity {
     Quantity {
         decimals: 1,
-        ..visits(name)
+        ..Quantity::count(name)
     }
 }
 
@@ -106,6 +107,8 @@ pub fn one(runs: &Runs<'_>) -> Result<Draft, Error> {
         number: TableNumber::One,
         quantities: COLUMNS.iter().chain(measured).copied().collect(),
         base: Base::OfScene,
+        // The three rays are the same at every size.
+        full_size: true,
         lines,
         notes,
     })

@@ -10,11 +10,22 @@ pub const NAME: &str = env!("OCTRAY_RECORD_NAME");
 /// Its chart: SVG.
 pub const CHART: &str = include_str!(env!("OCTRAY_RECORD_CHART"));
 
+/// The record of table III.
+pub const TABLE_III: &str = include_str!("../../record/table-iii.csv");
+/// Its path in the sources.
+pub const TABLE_III_NAME: &str = "lab/record/table-iii.csv";
+
 /// The cost of a picture on a board: the columns that tables show. If there are no numbers, the run failed.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct RecordRow {
     /// The scene's name.
     pub scene: String,
+    /// How many of the first lights were kept; all if `None`.
+    #[serde(default)]
+    pub lights: Option<usize>,
+    /// Whether nothing reflected or refracted.
+    #[serde(default)]
+    pub opaque: bool,
     /// The board's name.
     pub board: String,
     /// The requested arithmetic.

@@ -1,6 +1,6 @@
 //! Traces scenes for the tables, each variant once.
 
-use super::subject::{SceneVariant, Subject};
+use super::subject::SceneVariant;
 use octray_core::frame::Region;
 use octray_prepare::{RenderSettings, TreeSettings};
 use octray_render::cost::{self, CostMap};
@@ -29,10 +29,12 @@ pub struct Runs<'a> {
 }
 
 /// The counts of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TraceCounts {
     /// Pixels of the picture.
     pub pixels: u64,
+    /// Lights of the scene.
+    pub lights: u64,
     /// Rays by kind.
     pub rays: Rays,
     /// Node visits of rays.
@@ -82,7 +84,7 @@ impl<'a> Runs<'a> {
         }
         let (scene, settings) = (scene_variant.scene()?, self.settings(&scene_variant));
         let traced = render_with(&scene, &settings, &work, false, &(), self.interrupt)?;
-        let counts = TraceCounts::of(&traced);
+        let counts = TraceCounts::of(&traced, scene.lights.len());
         self.seen.borrow_mut().push((scene_variant, counts));
         Ok(counts)
     }
@@ -97,8 +99,7 @@ impl<'a> Runs<'a> {
     ///
     /// # Errors
     /// Those of [`renderer::prepare`] and [`CostMap::probe`].
-    pub fn map(&self, subject: Subject) -> Result<(CostMap, Region), Error> {
-        let scene_variant = SceneVariant::of(subject);
+    pub fn map(&self, scene_variant: SceneVariant) -> Result<(CostMap, Region), Error> {
         let renderer = renderer::prepare(&scene_variant.scene()?, &self.settings(&scene_variant))?;
         let map = CostMap::probe(&*renderer, NonZeroU32::MIN, self.interrupt)?;
         Ok((map, renderer.built().region()))
@@ -119,10 +120,11 @@ impl<'a> Runs<'a> {
 }
 
 impl TraceCounts {
-    fn of(traced: &Rendering) -> Self {
+    fn of(traced: &Rendering, lights: usize) -> Self {
         let counters = &traced.counters;
         Self {
             pixels: traced.picture.levels().len() as u64,
+            lights: lights as u64,
             rays: Rays::of(counters),
             steps: counters.steps(),
             voxels: counters.voxels(),
@@ -144,7 +146,7 @@ mod tests {
         let interrupt = Interrupt::new();
         let runs = Runs::new(Some((48, 32)), false, &interrupt);
         let counts = runs.count(SceneVariant::of(FIGURES[2])).unwrap();
-        let (map, _) = runs.map(FIGURES[2]).unwrap();
+        let (map, _) = runs.map(SceneVariant::of(FIGURES[2])).unwrap();
         // The map is made of strips of some rows, and what begins in each costs a little.
         let beyond = map.total() / counts.instructions - 1.0;
         assert!(beyond.abs() < 0.05, "{beyond}");

@@ -3,6 +3,7 @@
 use octray_prepare::{PixelsPerRay, TreeKind, Walk};
 use octray_render::error::Error;
 use octray_scenes::model::Scene;
+use octray_scenes::reduce::Reduction;
 
 /// A scene that comes with octray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,12 +59,8 @@ impl Subject {
 pub struct SceneVariant {
     /// The scene.
     pub subject: Subject,
-    /// The number of its first lights to keep; all if `None`.
-    pub lights: Option<usize>,
-    /// The number of its objects to keep, evenly chosen; all if `None`.
-    pub surfaces: Option<usize>,
-    /// Whether nothing reflects or transmits light.
-    pub opaque: bool,
+    /// What is left out of it.
+    pub reduction: Reduction,
     /// Whether there are a quarter more columns and rows, which show more around the same picture.
     pub larger: bool,
     /// Pixels that one ray colours.
@@ -79,9 +76,7 @@ impl SceneVariant {
     pub fn of(subject: Subject) -> Self {
         Self {
             subject,
-            lights: None,
-            surfaces: None,
-            opaque: false,
+            reduction: Reduction::default(),
             larger: false,
             pixels_per_ray: PixelsPerRay::One,
             tree: TreeKind::Bvh8,
@@ -89,42 +84,38 @@ impl SceneVariant {
         }
     }
 
-    /// Keeps the first `lights` of `all` lights.
-    pub fn with_lights(self, lights: usize, all: usize) -> Self {
+    /// Returns the scene with its first lights.
+    pub fn lit(subject: Subject, lights: usize) -> Self {
+        let reduction = Reduction {
+            lights: Some(lights),
+            opaque: false,
+        };
         Self {
-            lights: (lights < all).then_some(lights),
-            ..self
+            reduction,
+            ..Self::of(subject)
         }
     }
 
-    /// Keeps `surfaces` of `all` surfaces.
-    pub fn with_surfaces(self, surfaces: usize, all: usize) -> Self {
-        Self {
-            surfaces: (surfaces < all).then_some(surfaces),
-            ..self
-        }
+    /// Makes it opaque.
+    pub fn opaque(mut self) -> Self {
+        self.reduction.opaque = true;
+        self
+    }
+
+    /// One ray for each 2 × 2 pixels.
+    pub fn four_pixels_per_ray(mut self) -> Self {
+        self.pixels_per_ray = PixelsPerRay::Four;
+        self
     }
 
     /// Returns the scene of the variant.
     ///
     /// # Errors
-    /// [`Error::Scene`] if it has mistakes.
+    /// [`Error::Scene`] if it has mistakes, [`Error::Failed`] if it has too few lights.
     pub fn scene(&self) -> Result<Scene, Error> {
         let mut scene = self.subject.scene()?;
-        if let Some(lights) = self.lights {
-            scene.lights.truncate(lights);
-        }
-        let all = scene.objects.len();
-        if let Some(few) = self.surfaces.filter(|few| *few < all) {
-            let chosen = (0..few).map(|i| scene.objects[i * all / few]);
-            scene.objects = chosen.collect();
-        }
-        if self.opaque {
-            for surface in &mut scene.surfaces {
-                surface.reflect = 0.0;
-                surface.refract = 0.0;
-            }
-        }
+        (self.reduction.apply(&mut scene))
+            .map_err(|error| Error::Failed(format!("{}: {error}", self.subject.name)))?;
         let (width, height) = self.resized((scene.width, scene.height));
         (scene.width, scene.height) = (width, height);
         Ok(scene)
@@ -156,43 +147,20 @@ mod tests {
 
     #[test]
     fn variants_have_their_documented_effect() {
-        let scene_variant = SceneVariant::of(FIGURES[1]);
-        let all = scene_variant.scene().unwrap();
+        let all = SceneVariant::of(FIGURES[1]).scene().unwrap();
         assert_eq!((all.lights.len(), all.objects.len()), (10, 16));
-        let lights = SceneVariant {
-            lights: Some(3),
-            ..scene_variant
-        };
-        assert_eq!(lights.scene().unwrap().lights[..], all.lights[..3]);
-        let few = SceneVariant {
-            surfaces: Some(4),
-            ..scene_variant
-        };
-        let every_fourth = [0, 4, 8, 12].map(|i| all.objects[i]);
-        assert_eq!(few.scene().unwrap().objects, every_fourth);
-        // With all surfaces it is the unchanged scene, which is traced once.
-        assert_eq!(scene_variant.with_surfaces(16, 16), scene_variant);
-        assert_eq!(scene_variant.with_lights(10, 10), scene_variant);
-        assert_eq!(scene_variant.with_surfaces(4, 16), few);
-        assert_eq!(scene_variant.with_lights(3, 10), lights);
-        let opaque = SceneVariant {
-            opaque: true,
-            ..scene_variant
-        };
-        assert!(
-            opaque
-                .scene()
-                .unwrap()
-                .surfaces
-                .iter()
-                .all(|s| s.reflect == 0.0)
-        );
+        let lit = SceneVariant::lit(FIGURES[1], 3);
+        assert_eq!(lit.scene().unwrap().lights[..], all.lights[..3]);
+        let opaque = lit.opaque().scene().unwrap();
+        assert!(opaque.surfaces.iter().all(|s| s.reflect == 0.0));
+        assert_eq!(opaque.lights.len(), 3);
         let larger = SceneVariant {
             larger: true,
-            ..scene_variant
-        }
-        .scene()
-        .unwrap();
+            ..lit
+        };
+        let larger = larger.scene().unwrap();
         assert_eq!((larger.width, larger.height), (640, 640));
+        let message = SceneVariant::lit(FIGURES[3], 7).scene().unwrap_err();
+        assert!(message.to_string().contains("figure-22: the first 7 lights"));
     }
 }

@@ -17,28 +17,41 @@ pub struct Quantity {
     pub decimals: usize,
     /// Whether the ratio to the first variant is printed too.
     pub ratio: bool,
-    /// If our unit is the thesis's: the relative difference within which they agree.
-    pub within: Option<f64>,
+    /// What of it is compared with the thesis.
+    pub compare: Compare,
+}
+
+/// What of our number is compared with the thesis's, and the relative difference within which they agree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Compare {
+    /// Nothing.
+    Nothing,
+    /// The number itself: it has the same unit.
+    Value(f64),
+    /// Its ratio to that of the first variant.
+    Ratio(f64),
 }
 
 impl Quantity {
-    /// Returns a count that only we have; only ratios can be compared.
+    /// Returns a count that is not compared.
     pub const fn count(name: &'static str) -> Self {
         Self {
             name,
             thesis: name,
             unit: "",
             decimals: 0,
-            ratio: true,
-            within: None,
+            ratio: false,
+            compare: Compare::Nothing,
         }
     }
 
-    /// Returns a time, by [`octray_render::cost`]; only ratios can be compared.
-    pub const fn instructions(name: &'static str) -> Self {
+    /// Returns a time, by [`octray_render::cost`], whose ratios must agree within a share.
+    pub const fn instructions(name: &'static str, within: f64) -> Self {
         Self {
             unit: "M instructions",
             decimals: 1,
+            ratio: true,
+            compare: Compare::Ratio(within),
             ..Self::count(name)
         }
     }
@@ -46,7 +59,7 @@ impl Quantity {
     /// Returns a count that must agree with the thesis's within a share.
     pub const fn rays(name: &'static str, within: f64) -> Self {
         Self {
-            within: Some(within),
+            compare: Compare::Value(within),
             ..Self::count(name)
         }
     }
@@ -73,6 +86,8 @@ pub struct Draft {
     pub quantities: Vec<Quantity>,
     /// The line to which ratios refer.
     pub base: Base,
+    /// Whether the pictures have the thesis's size. If not, its counts are printed, but ours are not compared.
+    pub full_size: bool,
     /// Its lines.
     pub lines: Vec<DraftLine>,
     /// Remarks.
@@ -136,7 +151,7 @@ pub struct Given {
     pub unit: String,
     /// Its ratio to the first variant's, if known.
     pub ratio: Option<f64>,
-    /// Ours over the thesis's: of the numbers if they have the same unit, otherwise of the ratios.
+    /// Ours over the thesis's, of what is compared.
     pub ours_over_thesis: Option<f64>,
     /// The page.
     pub page: Option<u32>,
@@ -221,12 +236,17 @@ impl Draft {
             value: value.map(|datum| datum.value),
             unit: value.map_or(String::new(), |datum| datum.unit.clone()),
             ratio,
-            ours_over_thesis: match self.quantities[i].within {
-                Some(_) => value.and_then(|datum| quotient(line.2[i], datum.value)),
-                None => quotient(
+            ours_over_thesis: match self.quantities[i].compare {
+                Compare::Value(_) if self.full_size => value.and_then(|datum| {
+                    // None of either is agreement.
+                    let none = datum.value == 0.0 && line.2[i] == 0.0;
+                    quotient(line.2[i], datum.value).or(none.then_some(1.0))
+                }),
+                Compare::Ratio(_) => quotient(
                     self.ratio(line, i).unwrap_or(f64::NAN),
                     ratio.unwrap_or(f64::NAN),
                 ),
+                _ => None,
             },
             page: value.or(stated_ratio).and_then(|datum| datum.page),
         }
@@ -249,20 +269,34 @@ fn machines<'a>(placed: &[&'a Datum], quantity: &Quantity) -> Vec<&'a str> {
     machines
 }
 
-/// States how many numbers that should agree do; `None` if none is known.
+/// States how many numbers agree, and names the others; `None` if none is compared.
 fn agreement(lines: &[TableLine], column: usize, quantity: &Quantity) -> Option<String> {
-    let within = quantity.within?;
-    let compared: Vec<f64> = (lines.iter())
-        .flat_map(|line| &line.values[column].thesis)
-        .filter_map(|given| given.ours_over_thesis)
-        .collect();
-    let agree = compared
-        .iter()
-        .filter(|share| (**share - 1.0).abs() <= within);
-    (!compared.is_empty()).then(|| {
-        let (name, percent) = (quantity.name, within * 100.0);
-        let (agree, all) = (agree.count(), compared.len());
-        format!("{name}: {agree} of {all} are within {percent} % of the thesis's.")
+    let (what, within) = match quantity.compare {
+        Compare::Nothing => return None,
+        Compare::Value(within) => ("", within),
+        Compare::Ratio(within) => ("ratios ", within),
+    };
+    let mut compared = 0;
+    let mut others = Vec::new();
+    for line in lines {
+        for given in &line.values[column].thesis {
+            let Some(share) = given.ours_over_thesis else {
+                continue;
+            };
+            compared += 1;
+            if (share - 1.0).abs() > within {
+                others.push(format!("{} {} ({share:.2})", line.scene, line.variant));
+            }
+        }
+    }
+    let (name, percent) = (quantity.name, within * 100.0);
+    let agree = compared - others.len();
+    let rest = match &*others {
+        [] => String::from("."),
+        others => format!("; ours / thesis of the others: {}.", others.join(", ")),
+    };
+    (compared > 0).then(|| {
+        format!("{name}: {agree} of {compared} {what}are within {percent} % of the thesis's{rest}")
     })
 }
 
@@ -279,10 +313,11 @@ pub(super) mod tests {
         Draft {
             number: TableNumber::Four,
             quantities: vec![
-                Quantity::instructions("time"),
+                Quantity::instructions("time", 0.1),
                 Quantity::rays("reflected rays", 0.05),
             ],
             base,
+            full_size: true,
             lines: vec![
                 line("figure-19", "opaque", 10.0, 0.0),
                 line("figure-19", "reflective", 30.0, 1040.0),
@@ -331,8 +366,34 @@ V,figure-19,opaque,time,,1,,";
             table.lines[1].values[1].thesis[0].ours_over_thesis,
             Some(1.04)
         );
-        let said = "reflected rays: 1 of 2 are within 5 % of the thesis's.";
-        assert_eq!(table.notes, ["A note.", said]);
+        let said = [
+            "A note.",
+            "time: 0 of 2 ratios are within 10 % of the thesis's; ours / thesis of the others: figure-19 reflective \
+             (1.20), figure-20 reflective (1.33).",
+            "reflected rays: 1 of 2 are within 5 % of the thesis's; ours / thesis of the others: figure-20 reflective \
+             (1.06).",
+        ];
+        assert_eq!(table.notes, said);
+    }
+
+    #[test]
+    fn counts_of_other_sizes_are_not_compared() {
+        let small = Draft {
+            full_size: false,
+            ..draft(Base::OfScene)
+        };
+        let table = small.beside(&thesis(LINES).unwrap());
+        let rays = &table.lines[1].values[1].thesis[0];
+        assert_eq!((rays.value, rays.ours_over_thesis), (Some(1000.0), None));
+        assert_eq!(table.lines[1].values[0].thesis[0].ours_over_thesis, Some(1.2));
+    }
+
+    #[test]
+    fn none_of_both_agrees() {
+        let lines = "IV,figure-19,opaque,reflected rays,,0,,";
+        let table = draft(Base::OfScene).beside(&thesis(lines).unwrap());
+        let none = &table.lines[0].values[1].thesis[0];
+        assert_eq!(none.ours_over_thesis, Some(1.0));
     }
 
     #[test]

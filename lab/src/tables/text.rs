@@ -1,12 +1,9 @@
 //! Formats a table as text.
 
-use super::table::{Quantity, Table, TableLine, Value};
+use super::table::{Compare, Quantity, Table, TableLine};
 use comfy_table::{CellAlignment, presets};
 use octray_render::counts::thousands;
 use std::fmt::Write;
-
-/// The text for an unknown value.
-const UNKNOWN: &str = "not at hand";
 
 /// Formats the table with its title and remarks.
 pub fn of(table: &Table) -> String {
@@ -41,12 +38,6 @@ pub fn grid(table: &Table) -> String {
     let words = columns.len();
     for (i, quantity) in table.quantities.iter().enumerate() {
         columns.extend(columns_of(table, i, quantity));
-    }
-    if (table.lines.iter()).all(|line| line.values.iter().all(|value| value.thesis.is_empty())) {
-        columns.push(Column {
-            heading: "thesis".into(),
-            cell: Box::new(|_| UNKNOWN.into()),
-        });
     }
     let mut drawn = comfy_table::Table::new();
     drawn
@@ -91,7 +82,6 @@ fn columns_of<'a>(table: &'a Table, i: usize, quantity: &'a Quantity) -> Vec<Col
             "" => "thesis".into(),
             machine => format!("thesis, {machine}"),
         };
-        let unknown = || UNKNOWN.to_owned();
         columns.push(Column {
             heading: thesis.clone(),
             cell: Box::new(move |line| {
@@ -99,16 +89,16 @@ fn columns_of<'a>(table: &'a Table, i: usize, quantity: &'a Quantity) -> Vec<Col
                 match given.value {
                     Some(value) if given.unit.is_empty() => plain(value),
                     Some(value) => format!("{} {}", plain(value), given.unit),
-                    None => unknown(),
+                    None => String::new(),
                 }
             }),
         });
-        if quantity.within.is_some() {
+        if matches!(quantity.compare, Compare::Value(_)) {
             columns.push(Column {
                 heading: "ours / thesis".into(),
                 cell: Box::new(move |line| {
                     let given = &line.values[i].thesis[m];
-                    given.ours_over_thesis.map_or_else(unknown, ratio)
+                    given.ours_over_thesis.map_or(String::new(), ratio)
                 }),
             });
         }
@@ -116,15 +106,8 @@ fn columns_of<'a>(table: &'a Table, i: usize, quantity: &'a Quantity) -> Vec<Col
             columns.push(Column {
                 heading: "thesis, ratio".into(),
                 cell: Box::new(move |line| {
-                    let Value {
-                        ratio: ours,
-                        thesis,
-                        ..
-                    } = &line.values[i];
-                    match (ours, thesis[m].ratio) {
-                        (None, None) => String::new(),
-                        (_, given) => given.map_or_else(unknown, ratio),
-                    }
+                    let given = &line.values[i].thesis[m];
+                    given.ratio.map_or(String::new(), ratio)
                 }),
             });
         }

@@ -1,6 +1,7 @@
 //! Arguments of `octray measure`.
 
 use super::lists;
+use crate::cli::reduction::ReductionArgs;
 use crate::cli::{files, value};
 use clap::{Args, value_parser};
 use octray_lab::canvas;
@@ -26,8 +27,10 @@ pub struct MeasureArgs {
     /// Scene files [default: the five figures]
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    reduction: ReductionArgs,
     /// Measure single operations instead of scenes: arithmetic, hit tests, voxel step, shaded light
-    #[arg(long, conflicts_with_all = ["scenes", "size", "max_depth", "pixels_per_ray", "cut_off", "tree", "functions", "chart"])]
+    #[arg(long, conflicts_with_all = ["scenes", "lights", "opaque", "size", "max_depth", "pixels_per_ray", "cut_off", "tree", "functions", "chart"])]
     kernels: bool,
     /// Boards or targets, separated by commas [default: all]
     #[arg(long = "target", alias = "targets", value_name = "BOARDS", value_delimiter = ',', value_parser = board::named)]
@@ -103,6 +106,7 @@ impl MeasureArgs {
         Ok(MeasureJob {
             kernels: self.kernels,
             scenes: self.scenes,
+            reduction: self.reduction.reduction(),
             boards,
             ariths: lists::once(self.arith, |a, b| a == b),
             settings: RenderSettings {

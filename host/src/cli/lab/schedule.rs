@@ -68,6 +68,9 @@ pub struct ScheduleArgs {
     /// Slowdown of all processors per further busy processor, as a fraction
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
+    /// Slowdown of all processors per pair of busy processors and direction, as a fraction: the speed-up has a peak
+    #[arg(long, value_name = "K", default_value = "0", value_parser = value::not_negative)]
+    coherence: f64,
     /// Instructions that one processor executes before the others begin
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     serial: f64,
@@ -135,6 +138,7 @@ impl ScheduleArgs {
             machine: Machine {
                 hand_out: self.hand_out,
                 contention: self.contention,
+                coherence: self.coherence,
                 serial: self.serial,
             },
             per_pixel: self.per_pixel,

@@ -5,7 +5,7 @@ use clap::Args;
 use octray_lab::simulate::Machine;
 use octray_lab::tables::TablesJob;
 use octray_lab::tables::number::TableNumber;
-use octray_lab::tables::shared::Simulation;
+use octray_lab::tables::shared::{COHERENCE, Simulation};
 use octray_prepare::choice::Choice;
 use octray_render::error::Error;
 use std::num::NonZeroU32;
@@ -14,8 +14,8 @@ use std::path::PathBuf;
 /// Arguments of `octray tables`.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "\
-The output is the same in every run, except for what --time adds. Numbers of the thesis that are unknown print as \
-`not at hand`. To compare more of them, complete a copy of lab/src/tables/thesis.csv and pass it with --thesis.")]
+Each row is a row of the thesis, in its conditions: lights, surfaces, pixels per ray, H and processors. At other sizes than \
+its own only ratios are compared. The output is the same in every run, except for what --time adds.")]
 pub struct TablesArgs {
     /// The tables [default: all]
     #[arg(value_name = "TABLE", value_parser = value::choice::<TableNumber>().ignore_case())]
@@ -45,7 +45,7 @@ pub struct TablesArgs {
     #[arg(long, value_name = "N", default_value = "7", value_parser = value::count)]
     processors: NonZeroU32,
     /// Rows of a tile in table IX
-    #[arg(long, alias = "packet-rows", value_name = "H", default_value = "4", value_parser = value::count)]
+    #[arg(long, alias = "packet-rows", value_name = "H", default_value = "2", value_parser = value::count)]
     tile_rows: NonZeroU32,
     /// Instructions for which handing out a tile blocks the other processors, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
@@ -53,6 +53,9 @@ pub struct TablesArgs {
     /// Slowdown of all processors per further busy processor, as a fraction, in VIII and IX
     #[arg(long, value_name = "C", default_value = "0", value_parser = value::not_negative)]
     contention: f64,
+    /// Slowdown of all processors per pair of busy processors and direction, as a fraction, in VIII and IX
+    #[arg(long, value_name = "K", default_value_t = COHERENCE, value_parser = value::not_negative)]
+    coherence: f64,
     /// Instructions that one processor executes before the others begin, in VIII and IX
     #[arg(long, value_name = "I", default_value = "0", value_parser = value::not_negative)]
     serial: f64,
@@ -89,6 +92,7 @@ impl TablesArgs {
                 machine: Machine {
                     hand_out: self.hand_out,
                     contention: self.contention,
+                    coherence: self.coherence,
                     serial: self.serial,
                 },
             },
