@@ -107,11 +107,10 @@ impl RenderArgs {
                 return usage("with --pixels-per-ray 4, --tile-rows must be even");
             }
         }
-        if self
-            .tile_columns
-            .is_some_and(|columns| columns.get() % RUN != 0)
-        {
-            return usage("--tile-columns must be a multiple of 8");
+        if let Some(columns) = self.tile_columns.filter(|columns| columns.get() % RUN != 0) {
+            return Err(Error::Usage(format!(
+                "--tile-columns {columns} is not a multiple of {RUN}"
+            )));
         }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
