@@ -129,27 +129,21 @@ pub(crate) fn direct_light<
         observer.ray(RayKind::Shadow);
         ray.direction = to_light;
         let last = shadow_cache.get(i).copied().flatten();
-        let still = last.filter(|&object| {
-            let blocks = scene.shapes.blocks(object, &ray, distance, end, observer);
-            observer.test(object.kind(), blocks);
-            blocks
-        });
+        let still =
+            last.filter(|&object| (scene.shapes).blocks(object, &ray, distance, end, observer));
         let blocker =
             still.or_else(|| accelerator.any_hit(scene, &ray, distance, end, stack, observer));
         observer.looked_for_light(i, blocker);
-        if blocker.is_some() {
-            observer.blocked();
-            if let Some(place) = shadow_cache.get_mut(i) {
-                *place = blocker;
-            } else {
+        match shadow_cache.get_mut(i) {
+            Some(place) => *place = blocker,
+            None if blocker.is_some() => {
                 observer.uncached_light();
             }
-            continue;
+            None => {}
         }
-        if last.is_some()
-            && let Some(place) = shadow_cache.get_mut(i)
-        {
-            *place = None;
+        if blocker.is_some() {
+            observer.blocked();
+            continue;
         }
         let mut share = surface.diffuse * facing;
         if features::contains(FEATURES, features::SPECULAR) && surface.specular != Vec3::ZERO {

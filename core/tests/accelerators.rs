@@ -16,7 +16,6 @@ use forest::{Forest, Wrong};
 use meshes::Mesh;
 use octray_core::accel::{Accelerator, BruteForce};
 use octray_core::object::ObjectRef;
-use octray_core::observe::Counters;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
 use octray_core::scalar::{Approx, Fixed, Fixed64};
@@ -172,7 +171,8 @@ fn shoot<S: Quantize, A: Accelerator<S>>(
         stack: &mut stack,
         shadow_cache: &mut memory.shadow_cache,
     };
-    let colour = tracer.radiance(ray, &mut workspace, &mut Counters::default());
+    // With the observer of all other tests, so that each walk is compiled once.
+    let colour = tracer.radiance(ray, &mut workspace, &mut ());
     let _ = colour.to_array().map(S::level);
     tree.any_hit(&scene, &ray, limit, None, &mut stack, &mut ());
 }

@@ -70,7 +70,7 @@ fn a_run_that_needs_no_tool_gives_the_same_points_everywhere() {
 scene,width,height,label,arith,format,tree,max_depth,cut_off,pixels_per_ray,samples,cost_kind,unit,cost,cost_per_pixel,psnr,rmse,psnr_converged,rmse_converged,other_object_share,worst_depth_error,on_frontier,chosen_as,outcome,command
 a,16,12,f64 d0,f64,f64,bvh8,0,0.001953125,1,1,events,instructions,194[..].0,101[..],,0.0,22.6[..],18.7[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
 a,16,12,f32 d0,f32,f32,bvh8,0,0.001953125,1,1,events,instructions,19[..].0,10[..],[..],[..],22.6[..],18.7[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
-a,16,12,f64 d3,f64,f64,bvh8,3,0.001953125,1,1,events,instructions,237[..].0,123[..],,0.0,31.6[..],6.6[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=bvh8 --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
+a,16,12,f64 d3,f64,f64,bvh8,3,0.001953125,1,1,events,instructions,236[..].0,123[..],,0.0,31.6[..],6.6[..],0.0,0.0,true,[..],ok,octray render a.scene --arith=f64 --size=16x12 --tree=bvh8 --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
 a,16,12,f32 d3,f32,f32,bvh8,3,0.001953125,1,1,events,instructions,2[..].0,1[..],[..],[..],31.6[..],6.6[..],0.0,[..],[..],[..],ok,octray render a.scene --arith=f32 --size=16x12 --tree=bvh8 --max-depth=3 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1
 
 "#]]

@@ -170,7 +170,7 @@ fn the_json_object_has_the_documented_fields() {
 }
 
 #[test]
-fn tiles_are_squares_and_smaller_for_many_threads() {
+fn tiles_are_smaller_for_many_threads() {
     let folder = folder();
     let tile = |line: &str| {
         let tile = stats(folder.path(), line)["tile"].clone();

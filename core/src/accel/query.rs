@@ -41,32 +41,15 @@ impl<'a, S: Tolerance, O: Observer, const ANY: bool, const FEATURES: FeatureSet>
         }
     }
 
-    /// Tests the objects of a list up to the marked one. True if the query is over.
+    /// Tests the objects of a list up to the marked one. True if the query is over. `INLINE`: see [`Shapes::meets`].
     ///
-    /// With `INLINE` the tests are compiled into the walk. Without, hosts call [`Shapes::shared_hit`], so that a walk is
-    /// a fifth of the code. Firmware has one walk, and always inlines.
-    ///
-    /// [`Shapes::shared_hit`]: crate::shape::Shapes::shared_hit
+    /// [`Shapes::meets`]: crate::shape::Shapes::meets
     #[inline(always)]
     pub(super) fn test_list<const INLINE: bool>(&mut self, links: &[ObjectRef]) -> bool {
         for &object in links {
-            let shapes = &self.scene.shapes;
-            let leaves = self.ray.from.leaves(object);
-            let hit = if leaves {
-                shapes.hit_again(object, self.ray, self.limit)
-            } else if INLINE || cfg!(target_os = "none") {
-                shapes.hit(object, self.ray, self.limit, self.observer)
-            } else {
-                shapes.shared_hit(object, self.ray, self.limit, self.observer)
-            };
             let light = self.light.filter(|_| ANY);
-            let hit = match hit {
-                Some(t) if !shapes.is_arrival(object, self.ray, t, self.limit, light) => Some(t),
-                _ => None,
-            };
-            if !leaves {
-                self.observer.test(object.kind(), hit.is_some());
-            }
+            let shapes = &self.scene.shapes;
+            let hit = shapes.meets::<INLINE, O>(object, self.ray, self.limit, light, self.observer);
             if let Some(t) = hit {
                 if ANY {
                     self.found = Some(object);

@@ -12,14 +12,20 @@ use crate::scalar::Tolerance;
 use crate::scene::Light;
 
 impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
-    /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`. Not in the code of the walks: few
-    /// rays go inward.
+    /// Where a ray that leaves the object meets it once more, at 0 < t ≤ `limit`.
+    #[inline(always)]
+    pub(super) fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
+        if ray.from.is_inward() {
+            self.hit_from_inside(object, ray, limit)
+        } else {
+            None
+        }
+    }
+
+    /// The same for a ray that goes inward. Not in the code of the walks: few rays do.
     #[cold]
     #[inline(never)]
-    pub(crate) fn hit_again(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
-        if !ray.from.is_inward() {
-            return None;
-        }
+    fn hit_from_inside(&self, object: ObjectRef, ray: &Ray<S>, limit: S) -> Option<S> {
         let i = object.index();
         match object.kind() {
             ObjectKind::Sphere => self.sphere(i)?.hit_again(ray, limit, self.slack),
@@ -31,7 +37,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
 
     /// Whether a hit at `t` ≤ `limit` is where a ray arrives at its light, which the object holds: it blocks nothing.
     #[inline(always)]
-    pub(crate) fn is_arrival(
+    pub(super) fn is_arrival(
         &self,
         object: ObjectRef,
         ray: &Ray<S>,

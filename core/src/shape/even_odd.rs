@@ -22,7 +22,7 @@ pub(super) fn crosses<S: Scalar>(a: [S; 2], b: [S; 2], p: [S; 2]) -> bool {
 
 /// The same for an edge whose lower end is known.
 #[inline(always)]
-pub(super) fn crosses_upward<S: Scalar>([low, high]: [[S; 2]; 2], p: [S; 2]) -> bool {
+fn crosses_upward<S: Scalar>([low, high]: [[S; 2]; 2], p: [S; 2]) -> bool {
     low[1] <= p[1]
         && p[1] < high[1]
         && S::product(p[0] - low[0], high[1] - low[1]) < S::product(high[0] - low[0], p[1] - low[1])
@@ -56,8 +56,9 @@ impl<S: Tolerance> Near<S> {
     /// Whether the edge from `a` to `b` comes near.
     #[inline(always)]
     fn meets(&self, [a, b]: [[S; 2]; 2]) -> bool {
-        let beside = |i: usize| a[i].max(b[i]) < self.low[i] || self.high[i] < a[i].min(b[i]);
-        if beside(0) || beside(1) {
+        let below = |i: usize| a[i] < self.low[i] && b[i] < self.low[i];
+        let above = |i: usize| self.high[i] < a[i] && self.high[i] < b[i];
+        if below(0) || above(0) || below(1) || above(1) {
             return false;
         }
         let edge = [b[0] - a[0], b[1] - a[1]];
@@ -113,42 +114,46 @@ pub(super) enum Outline<'a, S> {
 }
 
 impl<S: Tolerance> Outline<'_, S> {
+    /// How many edges there are.
     #[inline(always)]
-    fn edges(&self) -> impl Iterator<Item = [[S; 2]; 2]> {
-        let count = match self {
+    pub(super) const fn len(&self) -> usize {
+        match self {
             Self::Corners(corners) => corners.len(),
             Self::Band(edges) => edges.len(),
-        };
-        (0..count).filter_map(move |i| match self {
-            Self::Corners(corners) => {
-                let before = i.checked_sub(1).unwrap_or(count - 1);
-                Some([*corners.get(before)?, *corners.get(i)?])
+        }
+    }
+
+    /// Whether a point is inside: even–odd.
+    #[inline(always)]
+    pub(super) fn encloses(&self, p: [S; 2]) -> bool {
+        match *self {
+            Self::Corners(corners) => encloses(corners, p),
+            Self::Band(edges) => {
+                (edges.iter()).fold(false, |inside, &edge| inside ^ crosses_upward(edge, p))
             }
-            Self::Band(edges) => edges.get(i).copied(),
-        })
+        }
     }
 
     #[inline(never)]
     fn meets(&self, near: &Near<S>) -> bool {
-        self.edges().any(|edge| near.meets(edge))
+        match *self {
+            Self::Corners(corners) => edges_of(corners).any(|edge| near.meets(edge)),
+            Self::Band(edges) => edges.iter().any(|&edge| near.meets(edge)),
+        }
     }
+}
 
-    fn encloses(&self, p: [S; 2]) -> bool {
-        (self.edges()).fold(false, |inside, [a, b]| inside ^ crosses(a, b, p))
-    }
+/// The edges between the corners of an outline.
+#[inline(always)]
+fn edges_of<S: Copy>(corners: &[[S; 2]]) -> impl Iterator<Item = [[S; 2]; 2]> {
+    let mut a = corners.last().copied();
+    corners
+        .iter()
+        .filter_map(move |&b| a.replace(b).map(|a| [a, b]))
 }
 
 /// Whether a projected point is inside a polygon: even–odd over its edges.
 #[inline(always)]
 pub(crate) fn encloses<S: Scalar>(corners: &[[S; 2]], p: [S; 2]) -> bool {
-    let Some(&last) = corners.last() else {
-        return false;
-    };
-    let mut inside = false;
-    let mut a = last;
-    for &b in corners {
-        inside ^= crosses(a, b, p);
-        a = b;
-    }
-    inside
+    edges_of(corners).fold(false, |inside, [a, b]| inside ^ crosses(a, b, p))
 }

@@ -1,7 +1,7 @@
 //! The polygon of any number of vertices.
 
 use super::bands::{Bands, Outlines};
-use super::even_odd::{Outline, crosses_upward, encloses, meets_edge};
+use super::even_odd::{Outline, meets_edge};
 use super::plane::Plane;
 use crate::observe::Observer;
 use crate::ray::{Aabb, Ray};
@@ -39,20 +39,16 @@ impl<S: Tolerance> Polygon<S> {
             return None;
         }
         let p = self.plane.project(point);
-        let meets = |outline| meets_edge(&self.plane, outline, ray, t, slack);
-        let inside = if self.bands.count == 0 {
-            let corners = self.corners(outlines.corners)?;
-            observer.edges(corners.len());
-            encloses(corners, p) || meets(Outline::Corners(corners))
+        let outline = if self.bands.count == 0 {
+            Outline::Corners(self.corners(outlines.corners)?)
         } else {
             let band = (self.bands.first + self.bands.of(p[1])) as usize;
             let (start, end) = (outlines.bands.get(band)?, outlines.bands.get(band + 1)?);
-            let edges = outlines.edges.get(*start as usize..*end as usize)?;
-            observer.edges(edges.len());
-            let odd = (edges.iter()).fold(false, |odd, edge| odd ^ crosses_upward(*edge, p));
-            odd || meets(Outline::Band(edges))
+            Outline::Band(outlines.edges.get(*start as usize..*end as usize)?)
         };
-        inside.then_some(t)
+        observer.edges(outline.len());
+        let meets = outline.encloses(p) || meets_edge(&self.plane, outline, ray, t, slack);
+        meets.then_some(t)
     }
 
     /// Its vertices, projected.

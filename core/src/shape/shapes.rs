@@ -158,7 +158,7 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
 
     /// [`Shapes::hit`], once more in the code for where it is not the innermost loop.
     #[inline(never)]
-    pub(crate) fn shared_hit<O: Observer>(
+    fn shared_hit<O: Observer>(
         &self,
         object: ObjectRef,
         ray: &Ray<S>,
@@ -168,11 +168,42 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         self.hit(object, ray, limit, observer)
     }
 
+    /// Where a ray meets the object at 0 < t ≤ `limit`, other than where it leaves it or arrives at `light`, its aim. The
+    /// object that it leaves does not count as tested.
+    ///
+    /// With `INLINE` the test is compiled into the caller. Without, hosts call [`Shapes::shared_hit`], so that a walk is a
+    /// fifth of the code. Firmware has one walk, and always inlines.
+    #[inline(always)]
+    pub(crate) fn meets<const INLINE: bool, O: Observer>(
+        &self,
+        object: ObjectRef,
+        ray: &Ray<S>,
+        limit: S,
+        light: Option<&Light<S>>,
+        observer: &mut O,
+    ) -> Option<S> {
+        let leaves = ray.from.leaves(object);
+        let hit = if leaves {
+            self.hit_again(object, ray, limit)
+        } else if INLINE || cfg!(target_os = "none") {
+            self.hit(object, ray, limit, observer)
+        } else {
+            self.shared_hit(object, ray, limit, observer)
+        };
+        let hit = match hit {
+            Some(t) if !self.is_arrival(object, ray, t, limit, light) => Some(t),
+            _ => None,
+        };
+        if !leaves {
+            observer.test(object.kind(), hit.is_some());
+        }
+        hit
+    }
+
     /// Whether the object keeps `ray` from going as far as `limit`, to `light` if that is its aim: whether the ray meets
-    /// it other than where it leaves it or arrives at the light. On hosts by `shared_hit`; on firmware, where
-    /// nothing else uses that, by a copy that says no more than this.
-    #[cfg_attr(target_os = "none", inline(never))]
-    #[cfg_attr(not(target_os = "none"), inline(always))]
+    /// it other than where it leaves it or arrives at the light. Firmware has a function for it, as nothing else there
+    /// shares the test.
+    #[inline(never)]
     pub fn blocks<O: Observer>(
         &self,
         object: ObjectRef,
@@ -181,14 +212,8 @@ impl<S: Tolerance, const FEATURES: FeatureSet> Shapes<'_, S, FEATURES> {
         light: Option<&Light<S>>,
         observer: &mut O,
     ) -> bool {
-        let hit = if ray.from.leaves(object) {
-            self.hit_again(object, ray, limit)
-        } else if cfg!(target_os = "none") {
-            self.hit(object, ray, limit, observer)
-        } else {
-            self.shared_hit(object, ray, limit, observer)
-        };
-        hit.is_some_and(|t| !self.is_arrival(object, ray, t, limit, light))
+        self.meets::<false, _>(object, ray, limit, light, observer)
+            .is_some()
     }
 
     /// The box that every hit of the object lies in.

@@ -25,16 +25,15 @@ impl<S: Tolerance> Triangle<S> {
         let point = ray.at(t);
         let p = self.plane.project(point);
         let [a, b, c] = self.corners;
-        if !(crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p)) {
-            let near = self.depth_contains(point)
-                && meets_edge(&self.plane, Outline::Corners(&self.corners), ray, t, slack);
-            return near.then_some(t);
-        }
-        // Rounding must not let the parity be odd outside the triangle's own box.
-        let inside = self.range(0).contains(p[0])
-            && self.range(1).contains(p[1])
+        let inside = crosses(a, b, p) ^ crosses(b, c, p) ^ crosses(c, a, p);
+        // Rounding must not let the parity be odd outside the triangle's own box, and no edge is met from farther away
+        // than the slack.
+        let room = if inside { S::ZERO } else { slack };
+        let in_box = self.range(0).contains(p[0], room)
+            && self.range(1).contains(p[1], room)
             && self.depth_contains(point);
-        inside.then_some(t)
+        let meets_edge = || meets_edge(&self.plane, Outline::Corners(&self.corners), ray, t, slack);
+        (in_box && (inside || meets_edge())).then_some(t)
     }
 
     #[inline(always)]
@@ -68,7 +67,7 @@ struct Range<S>(S, S);
 
 impl<S: Scalar> Range<S> {
     #[inline(always)]
-    fn contains(&self, x: S) -> bool {
-        self.0 <= x && x <= self.1
+    fn contains(&self, x: S, room: S) -> bool {
+        self.0 - room <= x && x <= self.1 + room
     }
 }

@@ -131,11 +131,12 @@ impl RenderArgs {
             ));
         }
         let unit = Schedule::columns(block);
-        if (self.tile_columns).is_some_and(|columns| !columns.get().is_multiple_of(unit)) {
+        let odd = |columns: &NonZeroU32| !columns.get().is_multiple_of(unit);
+        if let Some(columns) = self.tile_columns.filter(odd) {
             return usage(&match unit {
-                RUN => format!("--tile-columns must be a multiple of {unit}"),
+                RUN => format!("--tile-columns {columns} is not a multiple of {unit}"),
                 _ => format!(
-                    "with --pixels-per-ray {pixels}, --tile-columns must be a multiple of {unit}"
+                    "with --pixels-per-ray {pixels}, --tile-columns {columns} is not a multiple of {unit}"
                 ),
             });
         }

@@ -96,32 +96,3 @@ pub fn angle(a: &Exact3, b: &Exact3) -> f64 {
     }
     libm::atan2(near(&sine), near(&cosine))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sums_of_products_are_exact() {
-        let (big, small) = (exact(1e15), exact(1e-15));
-        let difference = (&big + &small) * (&big - &small) - &big * &big;
-        assert_eq!(difference, -(&small * &small));
-    }
-
-    #[test]
-    fn roots_and_quotients_have_many_digits() {
-        let two = exact(2.0);
-        let rest = root(&two) * root(&two) - &two;
-        assert!(near(&rest).abs() < 1e-150);
-        let third = exact(1.0) / exact(3.0);
-        assert!(near(&(third * exact(3.0) - exact(1.0))).abs() < 1e-150);
-    }
-
-    #[test]
-    fn angles_are_precise_however_small() {
-        let a = exact3([1.0, 0.0, 0.0]);
-        let b = exact3([1.0, 1e-30, 0.0]);
-        assert!((angle(&a, &b) - 1e-30).abs() < 1e-44);
-        assert_eq!(angle(&a, &exact3([0.0; 3])), core::f64::consts::PI);
-    }
-}

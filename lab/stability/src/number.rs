@@ -90,34 +90,3 @@ pub fn counted<T>(work: impl FnOnce() -> T) -> (T, u32) {
     let (result, count) = saturation::counted(work);
     (result, u32::try_from(count).unwrap_or(u32::MAX))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_long_fixed_format_is_exact() {
-        let x = Fixed64::<PerThread>::from_bits((1 << 62) + 1);
-        let expected = exact((1u64 << 30) as f64) + exact(2f64.powi(-32));
-        assert_eq!(x.exact(), expected);
-        assert_eq!((-x).exact(), -expected);
-    }
-
-    #[test]
-    fn a_scene_of_size_span_fits() {
-        fn fits<S: Number>() {
-            let room = S::MAX.to_f64() / 1.5;
-            assert!(span::<S>() <= room && span::<S>() > room / 2.0);
-        }
-        fits::<Fixed<28, PerThread>>();
-        fits::<Fixed<8, PerThread>>();
-        fits::<Fixed64<PerThread>>();
-    }
-
-    #[test]
-    fn saturations_are_counted() {
-        let large = Fixed::<16, PerThread>::from_f64(30_000.0);
-        assert_eq!(counted(|| large + large).1, 1);
-        assert_eq!(counted(|| large - large).1, 0);
-    }
-}
