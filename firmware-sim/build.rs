@@ -138,8 +138,7 @@ fn reduction() -> Result<Reduction, String> {
         lights: match &*lights {
             "" => None,
             text => Some(
-                (text.parse())
-                    .map_err(|_| format!("OCTRAY_LIGHTS={text}: expected a number"))?,
+                (text.parse()).map_err(|_| format!("OCTRAY_LIGHTS={text}: expected a number"))?,
             ),
         },
         opaque: match &*opaque {

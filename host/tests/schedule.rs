@@ -44,9 +44,17 @@ fn how_many_processors_are_worth_it_is_answered() {
     let text = String::from_utf8(output.stdout).unwrap();
     let answer: Vec<&str> = text.lines().rev().take(2).collect();
     // n / (1 + 0.001 n (n - 1)): from 16 to 32 processors it grows by 3.0, and then it falls.
-    assert!(answer[1].starts_with("worth it: 16 processors, 12."), "{text}");
-    assert!(answer[0].starts_with("fastest:  32 processors, 1"), "{text}");
-    let object = octray(folder.path(), &format!("{line} --json")).output().unwrap();
+    assert!(
+        answer[1].starts_with("worth it: 16 processors, 12."),
+        "{text}"
+    );
+    assert!(
+        answer[0].starts_with("fastest:  32 processors, 1"),
+        "{text}"
+    );
+    let object = octray(folder.path(), &format!("{line} --json"))
+        .output()
+        .unwrap();
     let object: serde_json::Value = serde_json::from_slice(&object.stdout).unwrap();
     assert_eq!(object["worth"]["processors"], 16);
     assert_eq!(object["peak"]["processors"], 32);

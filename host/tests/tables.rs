@@ -81,7 +81,12 @@ fn ray_counts_agree_with_the_thesis() {
     let tables: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let mut compared = 0;
     for table in tables.as_array().unwrap() {
-        assert_eq!(table["also"].as_array().unwrap().len(), 0, "{}", table["also"]);
+        assert_eq!(
+            table["also"].as_array().unwrap().len(),
+            0,
+            "{}",
+            table["also"]
+        );
         for line in table["lines"].as_array().unwrap() {
             for value in line["values"].as_array().unwrap() {
                 let within = match value["quantity"].as_str().unwrap() {
@@ -145,7 +150,10 @@ fn charts_are_drawn_with_their_tables() {
         for scene in scenes {
             assert!(svg.contains(&format!("figure-{scene}")), "{name}: {scene}");
         }
-        assert!(svg.matches("<polyline").count() >= 2 * scenes.len(), "{name}");
+        assert!(
+            svg.matches("<polyline").count() >= 2 * scenes.len(),
+            "{name}"
+        );
         let sides =
             |name: &str| -> u32 { between(&svg, &format!("{name}=\""), "\"").parse().unwrap() };
         let picture = octray_render::picture::read(&path.with_extension("png")).unwrap();

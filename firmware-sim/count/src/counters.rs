@@ -49,6 +49,9 @@ pub(crate) struct Calls {
 pub(crate) struct Counters {
     pub(crate) running: bool,
     by_kind: BTreeMap<What, Counter>,
+    /// Periods in which counting was on and something was counted, and the instructions of the longest.
+    periods: u64,
+    longest: u64,
     pub(crate) calls: BTreeMap<String, Calls>,
 }
 
@@ -57,6 +60,8 @@ impl Counters {
         Self {
             running: false,
             by_kind: BTreeMap::new(),
+            periods: 0,
+            longest: 0,
             calls: BTreeMap::new(),
         }
     }
@@ -68,13 +73,20 @@ impl Counters {
 
     /// Resumes or pauses counting.
     pub(crate) fn run(&mut self, running: bool) {
-        for counter in self.by_kind.values_mut() {
+        let mut period = 0;
+        for (what, counter) in &mut self.by_kind {
             let now = counter.now.load(Ordering::Relaxed);
             if self.running {
-                counter.sum += now - counter.start;
+                let counted = now - counter.start;
+                counter.sum += counted;
+                if matches!(what, What::Executed(..)) {
+                    period += counted;
+                }
             }
             counter.start = now;
         }
+        self.periods += u64::from(period > 0);
+        self.longest = self.longest.max(period);
         self.running = running;
     }
 
@@ -99,6 +111,7 @@ impl Counters {
         functions.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
         let mut text = format!("instructions {}\n", classes.values().sum::<u64>());
         // Writing to a string cannot fail.
+        let _ = writeln!(text, "periods {} {}", self.periods, self.longest);
         for (class, n) in classes {
             let _ = writeln!(text, "class {} {n}", class.name());
         }
@@ -134,8 +147,24 @@ mod tests {
         counters.run(false);
         add.fetch_add(11, Ordering::Relaxed);
         let report = counters.report();
-        assert!(report.contains("instructions 7\n"), "{report}");
+        assert!(report.contains("instructions 7\nperiods 1 7\n"), "{report}");
         assert!(report.contains("class load-store 7\nkind load 7\n"));
         assert!(report.contains("function 7 f\n"));
+    }
+
+    #[test]
+    fn the_longest_period_is_told() {
+        let mut counters = Counters::new();
+        let add = counters.counter(What::Executed("f".into(), Kind::Load));
+        for n in [3, 0, 9, 4] {
+            counters.run(true);
+            add.fetch_add(n, Ordering::Relaxed);
+            counters.run(false);
+        }
+        let report = counters.report();
+        assert!(
+            report.contains("instructions 16\nperiods 3 9\n"),
+            "{report}"
+        );
     }
 }

@@ -15,9 +15,9 @@ use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
 use octray_render::render::Rendering;
 use octray_render::scene_file;
-use octray_scenes::reduce::Reduction;
 use octray_scenes::model::Scene;
 use octray_scenes::name;
+use octray_scenes::reduce::Reduction;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,10 @@ impl NamedScene {
 ///
 /// # Errors
 /// If one cannot be read, has mistakes, or too few lights.
-pub fn scenes(named: &[PathBuf], reduction: Reduction) -> Result<Vec<(PathBuf, NamedScene)>, Error> {
+pub fn scenes(
+    named: &[PathBuf],
+    reduction: Reduction,
+) -> Result<Vec<(PathBuf, NamedScene)>, Error> {
     let read = |name: PathBuf, path: &Path| Ok((name, NamedScene::read(path, reduction)?));
     if !named.is_empty() {
         let named = named.iter();

@@ -38,6 +38,8 @@ pub struct Cheaper {
 pub struct Cost {
     /// Instructions, without start-up and panel.
     pub instructions: u64,
+    /// The dearest strip of the frame.
+    pub dearest: Strip,
     /// Bytes of flash.
     pub flash: u64,
     /// Bytes of RAM, including the stack.
@@ -48,6 +50,26 @@ pub struct Cost {
     pub detail: Prediction,
     /// The typical relative errors of instructions, flash and RAM, for scenes that the model was not fitted to.
     pub errors: [f64; 3],
+}
+
+/// The strip that takes the most instructions: a display waits for it, and no strip takes longer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Strip {
+    /// Its instructions.
+    pub instructions: u64,
+    /// Those of a frame's strips on average.
+    pub mean: u64,
+}
+
+impl Strip {
+    /// Formats it as text.
+    pub(super) fn text(&self) -> String {
+        let times = self.instructions as f64 / self.mean.max(1) as f64;
+        format!(
+            "{}, {times:.2} times the mean",
+            thousands(self.instructions)
+        )
+    }
 }
 
 impl Cheaper {

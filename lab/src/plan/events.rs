@@ -1,5 +1,6 @@
 //! Counts, on the host, the events of tracing a frame; instructions are predicted from them.
 
+use octray_core::frame::Region;
 use octray_core::observe::{Counters, QueryCounts, RayKind};
 use octray_prepare::plan::Plan;
 use octray_render::error::Error;
@@ -151,6 +152,31 @@ impl Probe {
     pub fn render(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Self, Error> {
         let renderer = renderer::prepare(scene, &plan.settings())?;
         Self::trace(&*renderer, scene, interrupt)
+    }
+
+    /// Returns the events of each strip that firmware renders of a plan, from top to bottom; strips in which nothing can be
+    /// seen are left out.
+    ///
+    /// # Errors
+    /// Those of [`Probe::render`].
+    pub fn strips(scene: &Scene, plan: &Plan, interrupt: &Interrupt) -> Result<Vec<Events>, Error> {
+        let renderer = renderer::prepare(scene, &plan.settings())?;
+        let built = renderer.built();
+        let active = &built.active;
+        let rows = (0..built.size.1).step_by(ROWS);
+        let strips = rows.map(|top| Region {
+            columns: active.columns.clone(),
+            rows: top.max(active.rows.start)..(top + ROWS as u32).min(active.rows.end),
+        });
+        strips
+            .filter(|strip| !strip.rows.is_empty() && !strip.columns.is_empty())
+            .map(|strip| {
+                interrupt.check()?;
+                let mut worker = renderer.worker(interrupt);
+                worker.probe(&strip);
+                Ok(Events::new(worker.counters(), scene.lights.len()))
+            })
+            .collect()
     }
 
     fn trace(renderer: &dyn Renderer, scene: &Scene, interrupt: &Interrupt) -> Result<Self, Error> {

@@ -2,8 +2,8 @@
 
 use super::accuracy::{Accuracy, Tried};
 use super::choice::{Candidate, Chooser};
-use super::decision::{Cost, Decision, decibels};
-use super::events::Events;
+use super::decision::{Cost, Decision, Strip, decibels};
+use super::events::{Events, Probe, ROWS};
 use super::job::{PlanJob, PlanLimits};
 use super::reasons::{bounces, capacities, code, numbers, pixels_per_ray, tree};
 use super::verify::Verification;
@@ -97,6 +97,10 @@ impl PlanReport {
         let instructions = |events: &Events| weights.instructions(events).iter().sum::<f64>();
         let full = instructions(&accuracy.full);
         let less = |events: &Events| (full > 0.0).then(|| instructions(events) / full - 1.0);
+        let scope = chooser.scope;
+        let strips = Probe::strips(scope.scene, &chosen.plan, scope.interrupt)?;
+        let dearest = strips.iter().map(&instructions).fold(0.0, f64::max);
+        let rows = chosen.plan.size.1.div_ceil(ROWS as u32).max(1);
         let decisions = vec![
             bounces(accuracy, less),
             pixels_per_ray(accuracy, less),
@@ -109,6 +113,10 @@ impl PlanReport {
             decisions,
             cost: Some(Cost {
                 instructions: chosen.cost.instructions.round() as u64,
+                dearest: Strip {
+                    instructions: dearest.round() as u64,
+                    mean: (chosen.cost.instructions / f64::from(rows)).round() as u64,
+                },
                 flash: chosen.cost.flash(),
                 ram: chosen.cost.ram(),
                 psnr: tried(chosen.plan.format).and_then(|tried| tried.psnr),
@@ -178,6 +186,8 @@ impl PlanReport {
                 "instructions",
                 &format!("{count} per frame ± {instructions}"),
             );
+            let dearest = cost.dearest.text();
+            text += &line("", &format!("the dearest strip of {ROWS} rows {dearest}"));
             text += &line("accuracy", &decibels(cost.psnr));
         }
         if let Some(trial) = &self.trial {
@@ -192,6 +202,11 @@ impl PlanReport {
             text += &line(
                 "measured",
                 &format!("{instructions} instructions, {flash} bytes of flash, {ram} of RAM"),
+            );
+            let (dearest, error) = (trial.dearest.text(), 100.0 * trial.dearest_error);
+            text += &line(
+                "",
+                &format!("the dearest strip {dearest} (predicted: {error:+.1} %)"),
             );
         }
         text

@@ -1,6 +1,6 @@
 //! Verifies a plan: builds the firmware from it, and runs it on the emulated board.
 
-use super::decision::Cost;
+use super::decision::{Cost, Strip};
 use super::events::Probe;
 use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
@@ -25,6 +25,10 @@ const PATIENCE: Duration = Duration::from_secs(300);
 pub struct Verification {
     /// Instructions, without start-up and panel.
     pub instructions: u64,
+    /// The dearest strip.
+    pub dearest: Strip,
+    /// The relative error of its prediction.
+    pub dearest_error: f64,
     /// Bytes of flash.
     pub flash: u64,
     /// Bytes of variables and of the maximum stack depth.
@@ -83,8 +87,14 @@ pub fn run(
     let measured = [run.count.instructions, memory.flash, memory.ram + stack];
     let predicted = [cost.instructions, cost.flash, cost.ram];
     let [instructions, flash, ram] = measured;
+    let dearest = Strip {
+        instructions: run.count.longest,
+        mean: run.count.instructions / run.count.periods.max(1),
+    };
     Ok(Verification {
         instructions,
+        dearest,
+        dearest_error: cost.dearest.instructions as f64 / dearest.instructions as f64 - 1.0,
         flash,
         ram,
         errors: [0, 1, 2].map(|i| predicted[i] as f64 / measured[i] as f64 - 1.0),

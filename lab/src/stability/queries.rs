@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 /// Pixels: a point's cell, the lines of text, and the space around panels.
-const CELL: i32 = 9;
+const CELL: i32 = 6;
 const LINE: i32 = 18;
 const MARGIN: i32 = 12;
 const SIDE: i32 = (4 * REACH + 1) * CELL;
@@ -31,7 +31,7 @@ impl Queries {
 impl Figure for Queries {
     fn size(&self) -> (u32, u32) {
         (
-            (3 * MARGIN + 2 * SIDE) as u32,
+            (4 * MARGIN + 3 * SIDE) as u32,
             (2 * MARGIN + 3 * LINE + 10 + SIDE) as u32,
         )
     }
@@ -98,8 +98,8 @@ fn paint_point<B: DrawingBackend>(
     area.draw(&Rectangle::new(frame, fill.filled()))?;
     let middle = (x + CELL / 2, y + CELL / 2);
     match (truth, found) {
-        (false, true) => area.draw(&Circle::new(middle, 4, FALSE_IN.stroke_width(2))),
-        (true, false) => area.draw(&Circle::new(middle, 4, FALSE_OUT.filled())),
+        (false, true) => area.draw(&Circle::new(middle, 2, FALSE_IN.stroke_width(2))),
+        (true, false) => area.draw(&Circle::new(middle, 3, FALSE_OUT.filled())),
         _ => Ok(()),
     }
 }

@@ -33,7 +33,10 @@ pub fn three(path: Option<&Path>, runs: &Runs<'_>) -> Result<Draft, Error> {
 fn pictures() -> [(SceneVariant, &'static str); 2] {
     [
         (SceneVariant::lit(FIGURES[0], 10), "10 lights"),
-        (SceneVariant::lit(FIGURES[1], 3).opaque(), "3 lights, opaque"),
+        (
+            SceneVariant::lit(FIGURES[1], 3).opaque(),
+            "3 lights, opaque",
+        ),
     ]
 }
 

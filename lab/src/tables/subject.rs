@@ -161,6 +161,10 @@ mod tests {
         let larger = larger.scene().unwrap();
         assert_eq!((larger.width, larger.height), (640, 640));
         let message = SceneVariant::lit(FIGURES[3], 7).scene().unwrap_err();
-        assert!(message.to_string().contains("figure-22: the first 7 lights"));
+        assert!(
+            message
+                .to_string()
+                .contains("figure-22: the first 7 lights")
+        );
     }
 }

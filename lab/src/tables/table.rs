@@ -385,7 +385,10 @@ V,figure-19,opaque,time,,1,,";
         let table = small.beside(&thesis(LINES).unwrap());
         let rays = &table.lines[1].values[1].thesis[0];
         assert_eq!((rays.value, rays.ours_over_thesis), (Some(1000.0), None));
-        assert_eq!(table.lines[1].values[0].thesis[0].ours_over_thesis, Some(1.2));
+        assert_eq!(
+            table.lines[1].values[0].thesis[0].ours_over_thesis,
+            Some(1.2)
+        );
     }
 
     #[test]

@@ -18,9 +18,7 @@ pub const TIMES_WITHIN: f64 = 0.1;
 /// The content of a column, and how it is computed.
 type Column = (Quantity, fn(&TraceCounts) -> f64);
 
-const PIXELS: Column = (Quantity::rays("pixels", 0.0), |counts| {
-    counts.pixels as f64
-});
+const PIXELS: Column = (Quantity::rays("pixels", 0.0), |counts| counts.pixels as f64);
 const PRIMARY: Column = (Quantity::rays("primary rays", 0.0), |counts| {
     counts.rays.primary as f64
 });
@@ -47,7 +45,8 @@ const MEASURED: Column = (
 const TIME_IS: &str = "Time is in instructions of one processor, estimated from counted events, and the same every \
 time; the thesis's is in minutes. So ratios compare.";
 
-const BLOCKED_IS: &str = "A light is tested where the surface faces it; blocked is what the thesis calls a shadow.";
+const BLOCKED_IS: &str =
+    "A light is tested where the surface faces it; blocked is what the thesis calls a shadow.";
 
 /// Makes table II: figure 20 with 10 and 8 lights.
 ///
@@ -72,9 +71,9 @@ pub fn four(runs: &Runs<'_>) -> Result<Draft, Error> {
         (reflective, "reflective".into()),
     ];
     let mut draft = draft(runs, TableNumber::Four, &[], &variants)?;
-    draft.notes.push(
-        "With 6 lights. Opaque is the same scene with nothing that reflects.".into(),
-    );
+    draft
+        .notes
+        .push("With 6 lights. Opaque is the same scene with nothing that reflects.".into());
     Ok(draft)
 }
 
@@ -124,10 +123,7 @@ pub fn six(runs: &Runs<'_>) -> Result<Draft, Error> {
 /// Those of [`Runs::count`].
 pub fn seven(runs: &Runs<'_>) -> Result<Draft, Error> {
     let one = SceneVariant::lit(FIGURES[3], 6);
-    let variants = [
-        (one, "1".into()),
-        (one.four_pixels_per_ray(), "4".into()),
-    ];
+    let variants = [(one, "1".into()), (one.four_pixels_per_ray(), "4".into())];
     let mut draft = draft(runs, TableNumber::Seven, &[PRIMARY], &variants)?;
     draft.notes.push("With 6 lights.".into());
     Ok(draft)
@@ -146,11 +142,7 @@ fn draft(
     for (scene_variant, variant) in variants {
         let counts = runs.count(*scene_variant)?;
         let values = columns.iter().map(|(_, get)| get(&counts)).collect();
-        lines.push((
-            scene_variant.subject.name.into(),
-            variant.clone(),
-            values,
-        ));
+        lines.push((scene_variant.subject.name.into(), variant.clone(), values));
     }
     Ok(Draft {
         number,

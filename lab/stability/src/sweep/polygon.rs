@@ -47,7 +47,11 @@ impl Sweep for Polygon {
             },
             Form {
                 name: "thesis",
-                label: "ray through the middle of an edge",
+                label: "ray through the middle of an edge that meets no vertex",
+            },
+            Form {
+                name: "thesis without remedy",
+                label: "ray through the middle of the first edge",
             },
         ],
         limits: StateLimits {
@@ -61,10 +65,10 @@ impl Sweep for Polygon {
     }
 
     fn measure<S: Number>(value: f64) -> Vec<ErrorStats> {
-        let mut all_errors = vec![ErrorStats::default(); 2];
+        let mut all_errors = vec![ErrorStats::default(); Self::ABOUT.forms.len()];
         for query in queries::<S>(value) {
             let truth = inside(&query);
-            let found = [counted(|| shipped(query)), counted(|| thesis(query))];
+            let found = forms().map(|form| counted(|| form(query)));
             for ((found, saturations), errors) in found.into_iter().zip(&mut all_errors) {
                 errors.saturations += saturations;
                 errors.decide(truth.unwrap_or(found), found);
@@ -106,7 +110,12 @@ pub struct Answer {
     /// The exact answer: whether it is inside. Of a point that is on an edge but for rounding either is right.
     pub truth: Option<bool>,
     /// The answer of each form.
-    pub found: [bool; 2],
+    pub found: [bool; 3],
+}
+
+/// The forms, in the order of [`Polygon::ABOUT`].
+fn forms<S: Number>() -> [fn(Query<S>) -> bool; 3] {
+    [shipped, thesis, thesis_without_remedy]
 }
 
 /// Returns the answers for a square of points around the star, half a unit apart. Many lie on its edges, their
@@ -123,7 +132,7 @@ pub fn square<S: Number>() -> Vec<Answer> {
         Answer {
             point,
             truth: inside(&query),
-            found: [shipped(query), thesis(query)],
+            found: forms().map(|form| form(query)),
         }
     };
     steps()
@@ -226,17 +235,53 @@ pub fn shipped<S: Number>(query: Query<S>) -> bool {
     .is_some()
 }
 
-/// Applies the thesis's rule: a ray goes from the point through the middle of the first edge; the point is inside if
-/// the ray intersects an odd number of edges.
+/// Applies the thesis's rule with its remedies (pages 14 to 16). A point is inside if it is a vertex ("pre-inside").
+/// Otherwise a line goes from it through the middle of an edge: the first one whose line meets no vertex. The point is
+/// inside if the line intersects an odd number of edges.
 pub fn thesis<S: Number>(query: Query<S>) -> bool {
-    let half = S::from_f64(0.5);
-    let [a, b] = [query.corners[0], query.corners[1]];
-    let minus = |a: [S; 2], b: [S; 2]| [a[0] - b[0], a[1] - b[1]];
-    let area = |a: [S; 2], b: [S; 2]| S::product(a[0], b[1]) - S::product(a[1], b[0]);
+    let Query { corners, point } = query;
+    if corners.contains(&point) {
+        return true;
+    }
     let none = S::product(S::ZERO, S::ZERO);
+    let meets_none = |edge: &usize| {
+        let along = along(query, *edge);
+        let mut areas = corners
+            .iter()
+            .map(|corner| area(minus(*corner, point), along));
+        areas.all(|area| area != none)
+    };
+    // If each line meets a vertex, the first is as good as any.
+    let edge = (0..corners.len()).find(meets_none).unwrap_or_default();
+    crosses_oddly(query, edge)
+}
+
+/// The same without remedies: the line goes through the middle of the first edge, and a vertex is no special case.
+pub fn thesis_without_remedy<S: Number>(query: Query<S>) -> bool {
+    crosses_oddly(query, 0)
+}
+
+fn minus<S: Number>(a: [S; 2], b: [S; 2]) -> [S; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn area<S: Number>(a: [S; 2], b: [S; 2]) -> S::Wide {
+    S::product(a[0], b[1]) - S::product(a[1], b[0])
+}
+
+/// From the point to the middle of an edge.
+fn along<S: Number>(query: Query<S>, edge: usize) -> [S; 2] {
+    let half = S::from_f64(0.5);
+    let [a, b] = [edge, edge + 1].map(|i| query.corners[i % query.corners.len()]);
     // Halve first, so that the sum fits.
     let middle = [0, 1].map(|k| a[k] * half + b[k] * half);
-    let along = minus(middle, query.point);
+    minus(middle, query.point)
+}
+
+/// Whether the line from the point through the middle of an edge intersects an odd number of edges.
+fn crosses_oddly<S: Number>(query: Query<S>, edge: usize) -> bool {
+    let none = S::product(S::ZERO, S::ZERO);
+    let along = along(query, edge);
     let mut odd = false;
     let next = query.corners.iter().cycle().skip(1);
     for (a, b) in query.corners.iter().zip(next) {
