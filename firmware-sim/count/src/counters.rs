@@ -49,8 +49,7 @@ pub(crate) struct Calls {
 pub(crate) struct Counters {
     pub(crate) running: bool,
     by_kind: BTreeMap<What, Counter>,
-    /// Periods in which counting was on and something was counted, and the instructions of the longest.
-    periods: u64,
+    /// The instructions of the longest period in which counting was on.
     longest: u64,
     pub(crate) calls: BTreeMap<String, Calls>,
 }
@@ -60,7 +59,6 @@ impl Counters {
         Self {
             running: false,
             by_kind: BTreeMap::new(),
-            periods: 0,
             longest: 0,
             calls: BTreeMap::new(),
         }
@@ -85,7 +83,6 @@ impl Counters {
             }
             counter.start = now;
         }
-        self.periods += u64::from(period > 0);
         self.longest = self.longest.max(period);
         self.running = running;
     }
@@ -111,7 +108,7 @@ impl Counters {
         functions.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
         let mut text = format!("instructions {}\n", classes.values().sum::<u64>());
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "periods {} {}", self.periods, self.longest);
+        let _ = writeln!(text, "longest {}", self.longest);
         for (class, n) in classes {
             let _ = writeln!(text, "class {} {n}", class.name());
         }
@@ -147,7 +144,7 @@ mod tests {
         counters.run(false);
         add.fetch_add(11, Ordering::Relaxed);
         let report = counters.report();
-        assert!(report.contains("instructions 7\nperiods 1 7\n"), "{report}");
+        assert!(report.contains("instructions 7\nlongest 7\n"), "{report}");
         assert!(report.contains("class load-store 7\nkind load 7\n"));
         assert!(report.contains("function 7 f\n"));
     }
@@ -162,9 +159,6 @@ mod tests {
             counters.run(false);
         }
         let report = counters.report();
-        assert!(
-            report.contains("instructions 16\nperiods 3 9\n"),
-            "{report}"
-        );
+        assert!(report.contains("instructions 16\nlongest 9\n"), "{report}");
     }
 }

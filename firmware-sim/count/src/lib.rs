@@ -11,7 +11,7 @@
 //! | line | meaning |
 //! | --- | --- |
 //! | `instructions N` | all instructions |
-//! | `periods N M` | periods from `octray_resume` to `octray_pause` with instructions, and those of the longest one |
+//! | `longest N` | those of the longest period from `octray_resume` to `octray_pause`: the dearest strip of a frame |
 //! | `class NAME N`, `kind NAME N` | instructions of each [`octray_instruction::Class`], and of each [`Kind`] |
 //! | `taken N`, `moved N` | taken conditional branches; registers moved by loads and stores of several registers |
 //! | `calls N M NAME` | calls of a watched function, and the instructions from their entries to their returns |

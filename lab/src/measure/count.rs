@@ -19,9 +19,7 @@ pub struct Calls {
 pub struct Count {
     /// All instructions.
     pub instructions: u64,
-    /// Periods in which instructions were counted: strips of a frame.
-    pub periods: u64,
-    /// The instructions of the longest period.
+    /// Those of the longest period between the marks: the dearest strip of a frame.
     pub longest: u64,
     /// By class.
     pub classes: BTreeMap<String, u64>,
@@ -45,11 +43,7 @@ impl Count {
             let (what, rest) = line.split_once(' ')?;
             match what {
                 "instructions" => count.instructions = rest.parse().ok()?,
-                "periods" => {
-                    let (periods, longest) = rest.split_once(' ')?;
-                    count.periods = periods.parse().ok()?;
-                    count.longest = longest.parse().ok()?;
-                }
+                "longest" => count.longest = rest.parse().ok()?,
                 "taken" => count.taken = rest.parse().ok()?,
                 "moved" => count.moved = rest.parse().ok()?,
                 "class" => {

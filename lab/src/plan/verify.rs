@@ -1,7 +1,7 @@
 //! Verifies a plan: builds the firmware from it, and runs it on the emulated board.
 
 use super::decision::{Cost, Strip};
-use super::events::Probe;
+use super::events::{Probe, ROWS};
 use crate::measure::board::{self, Board};
 use crate::measure::emulate::Emulator;
 use crate::measure::job::Goal;
@@ -89,7 +89,7 @@ pub fn run(
     let [instructions, flash, ram] = measured;
     let dearest = Strip {
         instructions: run.count.longest,
-        mean: run.count.instructions / run.count.periods.max(1),
+        mean: run.count.instructions / u64::from(plan.size.1.div_ceil(ROWS as u32).max(1)),
     };
     Ok(Verification {
         instructions,
