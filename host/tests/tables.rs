@@ -81,10 +81,10 @@ fn a_file_with_more_numbers_of_the_thesis_is_compared() {
 /// Numbers of the thesis as a user might fill them in; they are made up.
 const MORE: &str = "\
 table,scene,variant,quantity,machine,value,unit,page
-II,figure-19,2,time,Balance 8000,61.5,minutes,70
-II,figure-19,2,reflected rays,,6200,,70
+II,figure-19,10,time,Balance 8000,61.5,minutes,70
+II,figure-19,2,reflected rays,,2050,,70
 II,figure-20,10,time,Balance 8000,200,minutes,70
-II,figure-20,10,blocked light tests,,4000,,70
+II,figure-20,10,blocked light tests,,2000,,70
 VII,figure-21,4,time,,0.26,ratio,
 VII,,4,time,,0.27,ratio,
 ";
