@@ -153,21 +153,21 @@ primary                  sphere 2, line 8               5.4955  1.0000      1   
 ├ light 1                lit                                                1      1
 ├ light 2                blocked by box 3, line 9                           1      1
 ├ transmitted            sphere 2, line 8               1.6004  0.8000      1      1
-│ ├ light 1              blocked by sphere 2, line 8                        1      1
-│ ├ light 2              blocked by box 3, line 9                           0      1
+│ ├ light 1              blocked by sphere 2, line 8                        1      0
+│ ├ light 2              blocked by sphere 2, line 8                        1      0
 │ ├ transmitted          polygon 1, line 6              1.5087  0.6400      1      2
 │ │ ├ light 1            lit                                                1      1
-│ │ ├ light 2            blocked by box 3, line 9                           0      1
+│ │ ├ light 2            blocked by box 3, line 9                           1      3
 │ │ └ reflected          background                             0.3200      1      0
 │ └ reflected            sphere 2, line 8               1.6004  0.0800      1      1
 │   ├ light 1            blocked by sphere 2, line 8                        0      1
-│   ├ light 2            blocked by box 3, line 9                           0      1
+│   ├ light 2            blocked by sphere 2, line 8                        0      1
 │   ├ transmitted        background                             0.0640      1      1
 │   └ reflected          sphere 2, line 8               1.6004  0.0080      1      1
 │     ├ transmitted      box 3, line 9                  2.4371  0.0064      1      1
 │     │ ├ light 1        lit                                                1      2
 │     │ ├ transmitted    box 3, line 9                  0.2097  0.0051      1      1
-│     │ │ ├ light 1      blocked by box 3, line 9                           1      2
+│     │ │ ├ light 1      blocked by box 3, line 9                           1      1
 │     │ │ ├ transmitted  background                             0.0041      1      1
 │     │ │ └ reflected    not traced: its weight 0.0005 is below the cut-off
 │     │ └ reflected      not traced: its weight 0.0006 is below the cut-off
@@ -177,7 +177,7 @@ primary                  sphere 2, line 8               5.4955  1.0000      1   
   ├ transmitted          box 3, line 9                  0.2190  0.0800      1      1
   │ ├ light 1            blocked by box 3, line 9                           1      1
   │ ├ transmitted        polygon 1, line 6              2.9672  0.0640      1      2
-  │ │ ├ light 1          lit                                                1      1
+  │ │ ├ light 1          lit                                                1      0
   │ │ ├ light 2          lit                                                1      1
   │ │ └ reflected        background                             0.0320      1      0
   │ └ reflected          box 3, line 9                  0.2190  0.0080      1      1
@@ -212,14 +212,14 @@ i24f8: colour 84 98 113 (0.3281 0.3828 0.4414)
   ├ light 2                blocked by box 3, line 9     blocked by box 3, line 9
   ├ transmitted            sphere 2, line 8 at 1.6004   sphere 2, line 8 at 1.5601
   │ ├ light 1              blocked by sphere 2, line 8  blocked by sphere 2, line 8
-  │ ├ light 2              blocked by box 3, line 9     blocked by box 3, line 9
+  │ ├ light 2              blocked by sphere 2, line 8  blocked by sphere 2, line 8
   │ ├ transmitted          polygon 1, line 6 at 1.5087  polygon 1, line 6 at 1.5632
   │ │ ├ light 1            lit                          lit
   │ │ ├ light 2            blocked by box 3, line 9     blocked by box 3, line 9
   │ │ └ reflected          background                   background
   │ └ reflected            sphere 2, line 8 at 1.6004   sphere 2, line 8 at 1.5694
   │   ├ light 1            blocked by sphere 2, line 8  blocked by sphere 2, line 8
-  │   ├ light 2            blocked by box 3, line 9     blocked by box 3, line 9
+  │   ├ light 2            blocked by sphere 2, line 8  blocked by sphere 2, line 8
   │   ├ transmitted        background                   background
   │   └ reflected          sphere 2, line 8 at 1.6004   sphere 2, line 8 at 1.5695
   │     └ transmitted      box 3, line 9 at 2.4371      box 3, line 9 at 2.4959
