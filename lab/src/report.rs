@@ -57,7 +57,7 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     drop(progress);
     let mut sections = pictures;
     sections.push(costs::section(scenes, &job.chart, interrupt)?);
-    sections.extend(boards::sections()?);
+    sections.extend(boards::sections(interrupt)?);
     sections.push(limits::section(job, interrupt)?);
     let page = page::of(&sections).into_string();
     output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;

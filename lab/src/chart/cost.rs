@@ -18,6 +18,7 @@ use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
 use octray_render::renderer::Renderer;
 use octray_scenes::model::Scene;
+use octray_scenes::reduce::Reduction;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -236,6 +237,7 @@ impl<'a> Meter<'a> {
         let job = MeasureJob {
             kernels: false,
             scenes: Vec::new(),
+            reduction: Reduction::default(),
             boards: vec![board],
             ariths: vec![setting.arith],
             settings: *setting,

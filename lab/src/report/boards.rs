@@ -3,21 +3,24 @@
 use super::page::{self, Section, table};
 use crate::tables::emulated;
 use crate::tables::record::{self, RecordRow};
+use crate::tables::runs::Runs;
 use crate::tables::text;
 use crate::tables::thesis::Thesis;
 use maud::html;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
+use octray_render::interrupt::Interrupt;
 
 /// Returns table III with today's boards, and the needs of programs.
 ///
 /// # Errors
-/// [`Error::Failed`] if the record is invalid.
-pub(super) fn sections() -> Result<Vec<Section>, Error> {
+/// [`Error::Failed`] if a record is invalid, [`Error::Interrupted`].
+pub(super) fn sections(interrupt: &Interrupt) -> Result<Vec<Section>, Error> {
     let rows = record::read(record::NEWEST)
         .map_err(|cause| Error::Failed(format!("{}: {cause}", record::NAME)))?;
     let commit = rows.first().map_or("", |row| &row.commit);
-    let three = emulated::three(None)?.beside(&Thesis::read(None)?);
+    let three =
+        emulated::three(None, &Runs::new(None, false, interrupt))?.beside(&Thesis::read(None)?);
     let measured = format!("{}, measured at commit {commit}", record::NAME);
     let units = Section {
         id: "units".into(),
@@ -87,7 +90,7 @@ mod tests {
 
     #[test]
     fn the_record_that_comes_with_octray_is_shown() {
-        let sections = sections().unwrap();
+        let sections = sections(&Interrupt::new()).unwrap();
         let text: String = sections.iter().map(|s| s.body.0.clone()).collect();
         for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "not at hand"] {
             assert!(text.contains(expected), "{expected}");
