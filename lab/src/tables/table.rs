@@ -285,7 +285,12 @@ fn agreement(lines: &[TableLine], column: usize, quantity: &Quantity) -> Option<
             };
             compared += 1;
             if (share - 1.0).abs() > within {
-                others.push(format!("{} {} ({share:.2})", line.scene, line.variant));
+                let machine = match &*given.machine {
+                    "" => String::new(),
+                    machine => format!(", {machine}"),
+                };
+                let TableLine { scene, variant, .. } = line;
+                others.push(format!("{scene}, {variant}{machine}: {share:.2}"));
             }
         }
     }
@@ -293,7 +298,7 @@ fn agreement(lines: &[TableLine], column: usize, quantity: &Quantity) -> Option<
     let agree = compared - others.len();
     let rest = match &*others {
         [] => String::from("."),
-        others => format!("; ours / thesis of the others: {}.", others.join(", ")),
+        others => format!("; ours / thesis of the others: {}.", others.join("; ")),
     };
     (compared > 0).then(|| {
         format!("{name}: {agree} of {compared} {what}are within {percent} % of the thesis's{rest}")
@@ -368,10 +373,10 @@ V,figure-19,opaque,time,,1,,";
         );
         let said = [
             "A note.",
-            "time: 0 of 2 ratios are within 10 % of the thesis's; ours / thesis of the others: figure-19 reflective \
-             (1.20), figure-20 reflective (1.33).",
-            "reflected rays: 1 of 2 are within 5 % of the thesis's; ours / thesis of the others: figure-20 reflective \
-             (1.06).",
+            "time: 0 of 2 ratios are within 10 % of the thesis's; ours / thesis of the others: figure-19, \
+             reflective, Balance 8000: 1.20; figure-20, reflective, Sun 3/110: 1.33.",
+            "reflected rays: 1 of 2 are within 5 % of the thesis's; ours / thesis of the others: figure-20, \
+             reflective: 1.06.",
         ];
         assert_eq!(table.notes, said);
     }

@@ -42,7 +42,7 @@ pub struct TablesArgs {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Processors in table VIII
-    #[arg(long, value_name = "N", default_value = "7", value_parser = value::count)]
+    #[arg(long, value_name = "N", default_value = "8", value_parser = value::count)]
     processors: NonZeroU32,
     /// Rows of a tile in table IX
     #[arg(long, alias = "packet-rows", value_name = "H", default_value = "2", value_parser = value::count)]
