@@ -20,6 +20,7 @@ use octray_prepare::{Arith, FirmwareTree, RenderSettings};
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_scenes::generate::{SceneKind, Spec, generate};
+use octray_scenes::reduce::Reduction;
 use std::error::Error;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -177,6 +178,7 @@ fn job(scenes: Vec<PathBuf>, tree: FirmwareTree, boards: &[&'static Board]) -> M
     MeasureJob {
         kernels: false,
         scenes,
+        reduction: Reduction::default(),
         boards: boards.to_vec(),
         ariths: vec![Arith::F32, Arith::Auto],
         settings: RenderSettings {

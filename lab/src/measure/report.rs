@@ -108,6 +108,8 @@ pub(super) mod tests {
         FrameRow {
             scene: "figure-22".into(),
             objects: 45,
+            lights: 46,
+            opaque: false,
             width: 64,
             height: 48,
             max_depth: 8,
