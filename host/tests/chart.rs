@@ -84,7 +84,7 @@ a: instructions per frame, estimated from counted events
 | frontier | setting | instructions | PSNR, dB | RMSE, levels | PSNR, converged | RMSE, converged | other object first, % | worst depth error |
 |----------|---------|--------------|----------|--------------|-----------------|-----------------|-----------------------|-------------------|
 ...
-| *        | f64 d3  |      237,[..] |    equal |       0.0000 |           31.6[..] |          6.[..] |                 0.000 |             0.0e0 |
+| *        | f64 d3  |      236,[..] |    equal |       0.0000 |           31.6[..] |          6.[..] |                 0.000 |             0.0e0 |
 ...
 fastest with at least 20 dB: [..]
     octray render a.scene --arith=[..] --size=16x12 --tree=bvh8 --max-depth=0 --cut-off=1/512 --pixels-per-ray=1 --samples=1 --threads=1

@@ -50,6 +50,7 @@ pages! {
     scene_files: "docs/scene-files.md",
     small_targets: "docs/small-targets.md",
     stability: "docs/stability.md",
+    thesis: "docs/thesis.md",
     thesis_tables: "docs/thesis-tables.md",
 }
 

@@ -139,7 +139,7 @@ fn a_ray_colours_any_square_of_pixels_up_to_eight_by_eight() {
     (octray(folder.path(), &format!("{runs} 16")).assert())
         .code(2)
         .stderr_eq(str![[r#"
-error: with --pixels-per-ray 9, --tile-columns must be a multiple of 24
+error: with --pixels-per-ray 9, --tile-columns 16 is not a multiple of 24
 
 For more information, try '--help'.
 

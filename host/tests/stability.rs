@@ -62,9 +62,10 @@ fn prints_the_limits_of_some_arithmetics_and_draws_the_queries_of_polygons() {
     let text = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     // A heading, its rule, and the forms of both methods.
-    assert_eq!(lines.len(), 2 + 2 + 2, "{text}");
+    assert_eq!(lines.len(), 2 + 2 + 3, "{text}");
     assert!(lines[0].contains("f32 holds to") && lines[0].contains("i16f16 holds to"));
     assert!(lines[4].contains("polygon") && lines[5].contains("thesis"));
+    assert!(lines[6].contains("thesis without remedy"));
     // The last value of polygons is infinite, which JSON cannot represent.
     let json: Value =
         serde_json::from_slice(&fs::read(folder.path().join("a.json")).unwrap()).unwrap();

@@ -160,8 +160,8 @@ primary                  sphere 2, line 8               5.4955  1.0000      1   
 │ │ ├ light 2            blocked by box 3, line 9                           1      3
 │ │ └ reflected          background                             0.3200      1      0
 │ └ reflected            sphere 2, line 8               1.6004  0.0800      1      1
-│   ├ light 1            blocked by sphere 2, line 8                        0      1
-│   ├ light 2            blocked by sphere 2, line 8                        0      1
+│   ├ light 1            blocked by sphere 2, line 8                        0      0
+│   ├ light 2            blocked by sphere 2, line 8                        0      0
 │   ├ transmitted        background                             0.0640      1      1
 │   └ reflected          sphere 2, line 8               1.6004  0.0080      1      1
 │     ├ transmitted      box 3, line 9                  2.4371  0.0064      1      1
@@ -181,7 +181,7 @@ primary                  sphere 2, line 8               5.4955  1.0000      1   
   │ │ ├ light 2          lit                                                1      1
   │ │ └ reflected        background                             0.0320      1      0
   │ └ reflected          box 3, line 9                  0.2190  0.0080      1      1
-  │   ├ light 2          blocked by box 3, line 9                           0      1
+  │   ├ light 2          blocked by box 3, line 9                           0      0
   │   ├ transmitted      polygon 1, line 6              2.8212  0.0064      1      2
   │   │ ├ light 1        lit                                                1      1
   │   │ ├ light 2        blocked by box 3, line 9                           0      1
