@@ -92,7 +92,13 @@ mod tests {
     fn the_record_that_comes_with_octray_is_shown() {
         let sections = sections(&Interrupt::new()).unwrap();
         let text: String = sections.iter().map(|s| s.body.0.clone()).collect();
-        for expected in ["figure-23", "rv32imafc", "auto: ", "<svg", "opaque, without"] {
+        for expected in [
+            "figure-23",
+            "rv32imafc",
+            "auto: ",
+            "<svg",
+            "opaque, without",
+        ] {
             assert!(text.contains(expected), "{expected}");
         }
     }

@@ -186,7 +186,9 @@ pub(super) mod tests {
     #[test]
     fn the_shipped_numbers_are_exactly_the_known_ones() {
         let known = Thesis::read(None).unwrap();
-        let tables = <TableNumber as strum::VariantArray>::VARIANTS.iter().copied();
+        let tables = <TableNumber as strum::VariantArray>::VARIANTS
+            .iter()
+            .copied();
         let counts: Vec<usize> = tables.map(|number| known.of(number).count()).collect();
         assert_eq!(counts, [18, 8, 8, 6, 20, 8, 8, 32, 40]);
         let of = |scene, variant| Place {
