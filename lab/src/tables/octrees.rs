@@ -10,7 +10,7 @@ use octray_prepare::{TreeKind, Walk};
 use octray_render::error::Error;
 
 /// The ways to walk an octree, in the order of the columns.
-pub(super) const WALKS: [Walk; 3] = [Walk::Ordered, Walk::Neighbour, Walk::Links];
+pub const WALKS: [Walk; 3] = [Walk::Ordered, Walk::Neighbour, Walk::Links];
 
 const TREES: [(TreeKind, OctreeVariant); 2] = [
     (TreeKind::Plain, OctreeVariant::Plain),
