@@ -34,7 +34,8 @@ pub mod tree;
 pub use format::{Arith, Format};
 pub use prepare::Prepare;
 pub use settings::{
-    Adaptive, FirmwareTree, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings, Walk,
+    Adaptive, FirmwareTree, Link, PixelsPerRay, RenderSettings, Samples, TreeKind, TreeSettings,
+    Walk,
 };
 
 /// The examples of the README are compiled and run.

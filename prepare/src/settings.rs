@@ -4,7 +4,8 @@ use crate::choice::Choice;
 use crate::format::{Arith, Format};
 use crate::target::HitTestCost;
 use octray_core::accel::COMPACT_MAX_DEPTH;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
+use std::fmt;
 use std::num::{NonZeroU32, NonZeroUsize};
 use strum::{EnumMessage, EnumString, IntoStaticStr, VariantArray};
 
@@ -50,6 +51,28 @@ impl RenderSettings {
         max_depth: 8,
         cut_off: 1.0 / 512.0,
     };
+
+    /// The same with other rays per pixel.
+    #[must_use]
+    pub const fn with_samples(self, samples: Samples) -> Self {
+        let (samples, adaptive) = match samples {
+            Samples::Uniform(samples) => (samples, None),
+            Samples::Adaptive(how) => (1, Some(how)),
+        };
+        Self {
+            samples,
+            adaptive,
+            ..self
+        }
+    }
+
+    /// Returns the rays per pixel.
+    pub const fn rays_per_pixel(&self) -> Samples {
+        match self.adaptive {
+            Some(how) => Samples::Adaptive(how),
+            None => Samples::Uniform(self.samples),
+        }
+    }
 }
 
 impl Default for RenderSettings {
@@ -81,6 +104,37 @@ impl Adaptive {
     /// Returns the side of a pixel in sides of the smallest quarters.
     pub const fn side(self) -> u32 {
         1 << self.levels
+    }
+}
+
+/// How many rays a pixel gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// K × K of them.
+    Uniform(u32),
+    /// More where neighbouring ones differ.
+    Adaptive(Adaptive),
+}
+
+/// Displays it as `--samples` takes it.
+impl fmt::Display for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Uniform(samples) => write!(f, "{samples}"),
+            Self::Adaptive(Adaptive { levels, threshold }) => {
+                write!(f, "adaptive:{levels}:{threshold}")
+            }
+        }
+    }
+}
+
+/// A number, or its text.
+impl Serialize for Samples {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Uniform(samples) => serializer.serialize_u32(*samples),
+            Self::Adaptive(_) => serializer.collect_str(self),
+        }
     }
 }
 
@@ -277,7 +331,7 @@ impl Choice for FirmwareTree {
 
 /// Serialises by name.
 impl Serialize for FirmwareTree {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name())
     }
 }

@@ -1,13 +1,14 @@
 //! Arguments of `octray render`.
 
 use super::frames::FramesArgs;
-use super::value::Samples;
 use super::{ReductionArgs, files, value};
 use crate::job::{RenderJob, StatsFormat};
 use clap::{Args, value_parser};
 use octray_core::frame::RUN;
 use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings, Walk};
+use octray_prepare::{
+    Arith, Link, PixelsPerRay, RenderSettings, Samples, TreeKind, TreeSettings, Walk,
+};
 use octray_render::error::Error;
 use octray_render::picture::{RasDepth, Target};
 use octray_render::schedule::Schedule;

@@ -3,8 +3,8 @@
 use crate::diff::Share;
 use clap::builder::{PathBufValueParser, PossibleValue, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use octray_prepare::Adaptive;
 use octray_prepare::choice::Choice;
+use octray_prepare::{Adaptive, Samples};
 use octray_render::picture::Target;
 use std::ffi::OsStr;
 use std::marker::PhantomData;
@@ -96,15 +96,6 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some((side(width)?.into(), side(height)?.into())))
         .ok_or_else(|| "expected WIDTHxHEIGHT such as 640x480, each from 1 to 65535".into())
-}
-
-/// How many rays a pixel gets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Samples {
-    /// K × K of them.
-    Uniform(u32),
-    /// More where neighbouring ones differ.
-    Adaptive(Adaptive),
 }
 
 /// Parses `K` or `adaptive[:LEVELS[:THRESHOLD]]`.

@@ -5,7 +5,8 @@ use super::setting::Setting;
 use crate::budget;
 use octray_core::observe::RayKind;
 use octray_prepare::format::Format;
-use octray_prepare::{Arith, RenderSettings};
+use octray_prepare::{Adaptive, Arith, RenderSettings};
+use octray_render::adaptive;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
@@ -132,8 +133,9 @@ impl<'a> Judge<'a> {
             Err(Error::Failed(why)) => return Ok(Err(why)),
             other => other?,
         };
-        let budget = budget::rays(renderer.built().size, setting.samples);
-        let picture = match render(&*renderer, &self.interrupt.with_budget(2 * budget)) {
+        let samples = setting.adaptive.map_or(setting.samples, Adaptive::side);
+        let budget = budget::rays(renderer.built().size, samples);
+        let picture = match render(&*renderer, setting, &self.interrupt.with_budget(2 * budget)) {
             Err(Error::TooManyRays(rays)) => return Ok(Err(Error::TooManyRays(rays).to_string())),
             other => other?,
         };
@@ -159,7 +161,7 @@ impl<'a> Judge<'a> {
                 let renderer = build(self.scene, &setting)?;
                 self.exact.push(Exact {
                     setting,
-                    picture: render(&*renderer, &self.interrupt.with_budget(budget))?,
+                    picture: render(&*renderer, &setting, &self.interrupt.with_budget(budget))?,
                     renderer,
                 });
                 self.exact.len() - 1
@@ -175,9 +177,16 @@ pub(super) fn build(scene: &Scene, setting: &RenderSettings) -> Result<Box<dyn R
 }
 
 /// The picture.
-fn render(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<Picture, Error> {
+fn render(
+    renderer: &dyn Renderer,
+    setting: &RenderSettings,
+    interrupt: &Interrupt,
+) -> Result<Picture, Error> {
     let work = Schedule::default();
-    let rendered = render_tiles(renderer, &work, false, &(), interrupt)?;
+    let rendered = match setting.adaptive {
+        None => render_tiles(renderer, &work, false, &(), interrupt)?,
+        Some(how) => adaptive::render(renderer, how, &work, false, &(), interrupt)?,
+    };
     Ok(rendered.0)
 }
 

@@ -10,15 +10,19 @@ use crate::measure::frames::{Bench, NamedScene, SEARCH};
 use crate::measure::job::{FirmwareOptions, Goal, MeasureJob};
 use crate::measure::source_tree::SourceTree;
 use crate::plan::choice::PER_PIXEL;
+use octray_core::observe::Counters;
 use octray_prepare::{FirmwareTree, RenderSettings, TreeKind};
+use octray_render::adaptive;
 use octray_render::cost;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::progress::Progress;
 use octray_render::renderer::Renderer;
+use octray_render::schedule::Schedule;
 use octray_scenes::model::Scene;
 use octray_scenes::reduce::Reduction;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -201,9 +205,10 @@ impl<'a> Meter<'a> {
             .collect::<Result<_, _>>()?;
         let mut times = vec![Vec::new(); engines.len()];
         for _ in 0..self.job.rounds.get() {
-            for (renderer, times) in engines.iter().zip(&mut times) {
+            let engines = engines.iter().zip(settings);
+            for ((renderer, setting), times) in engines.zip(&mut times) {
                 self.interrupt.check()?;
-                times.push(time(&**renderer, self.interrupt)?);
+                times.push(time(&**renderer, setting, self.interrupt)?);
             }
         }
         engines.iter().for_each(|_| progress.step());
@@ -261,20 +266,40 @@ impl<'a> Meter<'a> {
 
 fn events(scene: &Scene, setting: &RenderSettings, interrupt: &Interrupt) -> Result<f64, Error> {
     let renderer = build(scene, setting)?;
-    let mut worker = renderer.worker(interrupt);
-    worker.probe(&renderer.built().active);
-    interrupt.check()?;
+    let counters = count(&*renderer, setting, interrupt)?;
     let (width, height) = renderer.built().size;
     let background = PER_PIXEL * f64::from(width) * f64::from(height);
-    Ok(cost::cost(worker.counters()).max(background))
+    Ok(cost::cost(&counters).max(background))
 }
 
-fn time(renderer: &dyn Renderer, interrupt: &Interrupt) -> Result<f64, Error> {
-    let mut worker = renderer.worker(interrupt);
+fn time(
+    renderer: &dyn Renderer,
+    setting: &RenderSettings,
+    interrupt: &Interrupt,
+) -> Result<f64, Error> {
     let begin = Instant::now();
-    worker.probe(&renderer.built().active);
-    interrupt.check()?;
+    count(renderer, setting, interrupt)?;
     Ok(begin.elapsed().as_secs_f64())
+}
+
+/// Traces the picture in this thread, and returns what was counted.
+fn count(
+    renderer: &dyn Renderer,
+    setting: &RenderSettings,
+    interrupt: &Interrupt,
+) -> Result<Counters, Error> {
+    let Some(how) = setting.adaptive else {
+        let mut worker = renderer.worker(interrupt);
+        worker.probe(&renderer.built().active);
+        interrupt.check()?;
+        return Ok(*worker.counters());
+    };
+    let alone = Schedule {
+        threads: NonZeroUsize::MIN,
+        ..Schedule::default()
+    };
+    let rendered = adaptive::render(renderer, how, &alone, false, &(), interrupt)?;
+    Ok(rendered.1)
 }
 
 /// The middle one; the lower of two.

@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use super::point::{Against, Panel, Point};
 use crate::measure::table;
 use comfy_table::Table;
-use octray_prepare::{Arith, RenderSettings};
+use octray_prepare::{Arith, RenderSettings, Samples};
 use octray_render::metric::Difference;
 use serde::Serialize;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ struct Row<'a> {
     max_depth: u32,
     cut_off: f64,
     pixels_per_ray: u32,
-    samples: u32,
+    samples: Samples,
     cost_kind: &'a str,
     unit: &'a str,
     cost: Option<f64>,
@@ -85,7 +85,7 @@ impl<'a> Row<'a> {
             max_depth: setting.max_depth,
             cut_off: setting.cut_off,
             pixels_per_ray: setting.pixels_per_ray.number(),
-            samples: setting.samples,
+            samples: setting.rays_per_pixel(),
             cost_kind: panel.kind.name(),
             unit: panel.kind.unit(),
             cost: None,

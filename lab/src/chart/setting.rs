@@ -1,7 +1,9 @@
 //! What a picture is rendered with: all combinations of what is chosen from, and their names.
 
 use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
+use octray_prepare::{
+    Arith, FirmwareTree, PixelsPerRay, RenderSettings, Samples, TreeKind, TreeSettings,
+};
 
 /// What to choose from; each list has at least one value, and none twice.
 #[derive(Clone, Debug)]
@@ -16,8 +18,8 @@ pub struct Grid {
     pub cut_offs: Vec<f64>,
     /// Pixels that one ray colours.
     pub pixels_per_ray: Vec<PixelsPerRay>,
-    /// Rays per pixel in each direction.
-    pub samples: Vec<u32>,
+    /// Rays per pixel.
+    pub samples: Vec<Samples>,
 }
 
 impl Grid {
@@ -27,23 +29,23 @@ impl Grid {
         let mut settings = Vec::new();
         for &samples in &self.samples {
             for &pixels_per_ray in &self.pixels_per_ray {
-                if samples > 1 && pixels_per_ray != PixelsPerRay::One {
+                if samples != Samples::Uniform(1) && pixels_per_ray != PixelsPerRay::One {
                     continue;
                 }
                 for &cut_off in &self.cut_offs {
                     for &max_depth in &self.max_depths {
                         for &tree in &self.trees {
-                            settings.extend(self.ariths.iter().map(|&arith| RenderSettings {
-                                arith,
+                            let setting = RenderSettings {
                                 tree: TreeSettings::of(tree),
                                 size: Some(size),
-                                orbit: 0.0,
                                 max_depth,
                                 cut_off,
                                 pixels_per_ray,
-                                samples,
-                                adaptive: None,
-                            }));
+                                ..RenderSettings::DEFAULT.with_samples(samples)
+                            };
+                            let ariths = self.ariths.iter();
+                            settings
+                                .extend(ariths.map(|&arith| RenderSettings { arith, ..setting }));
                         }
                     }
                 }
@@ -91,7 +93,8 @@ pub trait Setting: Sized {
     fn in_f64(&self) -> Self;
 
     /// A short name that tells it from the others: what they have in common is left out. `d4` are 4 bounces,
-    /// `c1/64` is a cut-off, `4px` a ray for four pixels, `3x3` are nine rays for one pixel.
+    /// `c1/64` is a cut-off, `4px` a ray for four pixels, `3x3` are nine rays for one pixel, `adaptive:2:8` those of
+    /// `--samples`.
     fn label(&self, others: &[Self]) -> String;
 
     /// The arguments of `octray render` that give the picture.
@@ -133,10 +136,11 @@ impl Setting for RenderSettings {
         if others.iter().any(|other| other.cut_off != self.cut_off) {
             words.push(format!("c{}", fraction(self.cut_off)));
         }
-        let pixels = |setting: &Self| (setting.pixels_per_ray, setting.samples);
+        let pixels = |setting: &Self| (setting.pixels_per_ray, setting.rays_per_pixel());
         if others.iter().any(|other| pixels(other) != pixels(self)) {
             words.push(match pixels(self) {
-                (PixelsPerRay::One, samples) => format!("{samples}x{samples}"),
+                (PixelsPerRay::One, Samples::Uniform(samples)) => format!("{samples}x{samples}"),
+                (PixelsPerRay::One, adaptive) => adaptive.to_string(),
                 (pixels, _) => format!("{}px", pixels.number()),
             });
         }
@@ -154,7 +158,7 @@ impl Setting for RenderSettings {
             Some(format!("--max-depth={}", self.max_depth)),
             Some(format!("--cut-off={}", fraction(self.cut_off))),
             Some(format!("--pixels-per-ray={}", self.pixels_per_ray.number())),
-            Some(format!("--samples={}", self.samples)),
+            Some(format!("--samples={}", self.rays_per_pixel())),
         ];
         arguments.into_iter().flatten().collect()
     }
@@ -200,12 +204,15 @@ pub fn common(settings: &[RenderSettings]) -> String {
     if same(|setting| setting.cut_off) {
         words.push(format!("cut-off {}", fraction(first.cut_off)));
     }
-    if same(|setting| setting.samples.into())
+    if (settings.iter()).all(|other| other.rays_per_pixel() == first.rays_per_pixel())
         && same(|setting| setting.pixels_per_ray.number().into())
     {
-        words.push(match (first.pixels_per_ray, first.samples) {
-            (PixelsPerRay::One, 1) => "1 ray per pixel".into(),
-            (PixelsPerRay::One, samples) => format!("{samples} x {samples} rays per pixel"),
+        words.push(match (first.pixels_per_ray, first.rays_per_pixel()) {
+            (PixelsPerRay::One, Samples::Uniform(1)) => "1 ray per pixel".into(),
+            (PixelsPerRay::One, Samples::Uniform(samples)) => {
+                format!("{samples} x {samples} rays per pixel")
+            }
+            (PixelsPerRay::One, adaptive) => format!("{adaptive} rays per pixel"),
             (PixelsPerRay::Four, _) => "a ray for four pixels".into(),
             (pixels, _) => format!("a ray for {} pixels", pixels.number()),
         });
@@ -229,6 +236,7 @@ pub fn fraction(weight: f64) -> String {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use octray_prepare::Adaptive;
 
     pub(crate) fn grid(ariths: &[Arith], max_depths: &[u32], samples: &[u32]) -> Grid {
         Grid {
@@ -237,7 +245,7 @@ pub(super) mod tests {
             max_depths: max_depths.to_vec(),
             cut_offs: vec![1.0 / 512.0],
             pixels_per_ray: vec![PixelsPerRay::One],
-            samples: samples.to_vec(),
+            samples: samples.iter().copied().map(Samples::Uniform).collect(),
         }
     }
 
@@ -268,6 +276,14 @@ pub(super) mod tests {
         let some = grid(&[Arith::F32, Arith::APPROX2], &[8], &[1, 3]).settings((8, 8));
         let labels: Vec<_> = some.iter().map(|setting| setting.label(&some)).collect();
         assert_eq!(labels, ["f32 1x1", "approx2 1x1", "f32 3x3", "approx2 3x3"]);
+        let adaptive = Grid {
+            samples: vec![Samples::Uniform(1), Samples::Adaptive(Adaptive::DEFAULT)],
+            ..grid(&[Arith::F32], &[8], &[1])
+        };
+        let adaptive = adaptive.settings((8, 8));
+        assert_eq!(adaptive[1].label(&adaptive), "adaptive:2:8");
+        let arguments = adaptive[1].render_arguments();
+        assert!(arguments.contains(&"--samples=adaptive:2:8".into()));
         let depths = grid(&[Arith::Auto], &[0, 2], &[1]).settings((8, 8));
         assert_eq!(depths[1].label(&depths), "d2");
     }

@@ -8,7 +8,7 @@ use octray_lab::chart::ChartJob;
 use octray_lab::chart::cost::{CostKind, tree_on_boards};
 use octray_lab::chart::point::{Against, Wishes};
 use octray_lab::chart::setting::Grid;
-use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind};
+use octray_prepare::{Arith, PixelsPerRay, RenderSettings, Samples, TreeKind};
 use octray_render::error::Error;
 use octray_render::picture::Target;
 use std::num::NonZeroUsize;
@@ -53,9 +53,9 @@ pub struct ChartArgs {
         default_value = "1"
     )]
     pixels_per_ray: Vec<PixelsPerRay>,
-    /// K x K rays per pixel
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1", value_parser = value_parser!(u32).range(1..=64))]
-    samples: Vec<u32>,
+    /// Rays per pixel: K x K, or adaptive[:LEVELS[:THRESHOLD]], as in `octray render`
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1", value_parser = value::samples)]
+    samples: Vec<Samples>,
     /// Cost of a frame: host-time, host-instructions, events, or a board; one panel each
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "host-time", value_parser = CostKind::named)]
     cost: Vec<CostKind>,
@@ -145,7 +145,7 @@ impl ChartArgs {
                     "{board} has no {tree} tree: expected compact-bvh8 or none"
                 ));
             }
-            if grid.samples != [1] {
+            if grid.samples != [Samples::Uniform(1)] {
                 return usage(format!("{board} supports no more than one ray per pixel"));
             }
         }

@@ -8,7 +8,7 @@ use octray_lab::chart::cost::CostKind;
 use octray_lab::chart::point::{Against, Wishes};
 use octray_lab::chart::setting::Grid;
 use octray_lab::report::ReportJob;
-use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind};
+use octray_prepare::{Arith, PixelsPerRay, RenderSettings, Samples, TreeKind};
 use octray_render::error::Error;
 use octray_stability::sweep;
 use std::num::NonZeroUsize;
@@ -69,7 +69,7 @@ impl ReportArgs {
                     max_depths: vec![RenderSettings::DEFAULT.max_depth],
                     cut_offs: vec![RenderSettings::DEFAULT.cut_off],
                     pixels_per_ray: vec![PixelsPerRay::One],
-                    samples: vec![1],
+                    samples: vec![Samples::Uniform(1)],
                 },
                 costs,
                 size: self.chart_size,
