@@ -15,7 +15,7 @@ use octray_render::render::Rendering;
 use octray_render::scene_file;
 use octray_scenes::model::{Camera, Scene};
 use octray_scenes::name;
-use octray_scenes::{input, parse, point};
+use octray_scenes::{check, input, parse, point};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -36,6 +36,7 @@ pub fn run(job: &RenderJob, frames: &FramesJob, interrupt: &Interrupt) -> Result
     let begin = Instant::now();
     let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
     let views = views(&scene, frames)?;
+    check_views(&views)?;
     let parse = begin.elapsed();
     let mut sequence = Sequence {
         job,
@@ -50,6 +51,15 @@ pub fn run(job: &RenderJob, frames: &FramesJob, interrupt: &Interrupt) -> Result
         FrameFiles::Numbered => sequence.numbered(&views),
         FrameFiles::Animation { per_second } => sequence.animation(&views, per_second),
     }
+}
+
+/// Refuses frames from which nothing can be seen: between two views of a path, the eye may come to the point looked at, or
+/// look along `up`.
+fn check_views(views: &[View]) -> Result<(), Error> {
+    (views.iter().enumerate()).try_for_each(|(i, view)| {
+        check::camera(&view.camera)
+            .map_err(|why| Error::Failed(format!("frame {} of {}: {why}", i + 1, views.len())))
+    })
 }
 
 /// What all frames have in common.
@@ -136,10 +146,19 @@ impl Sequence<'_> {
         Ok(match self.job.stats {
             StatsFormat::None => String::new(),
             StatsFormat::Text => {
+                let seen = stats.hits > 0 || self.scene.objects.is_empty();
+                let nothing = (!seen).then_some(scene_file::NOTHING_IN_SIGHT);
+                let remarks = [nothing, stats.too_fine.as_deref()];
+                let remarks: String = (remarks.into_iter().flatten())
+                    .map(|remark| format!("  {remark}\n"))
+                    .collect();
                 let name = name::line(&stats.picture);
                 let rays = thousands(stats.rays.total());
                 let time = duration(stats.seconds.build + stats.seconds.render);
-                format!("{name}  {rays} rays, {time}, hash {:016x}\n", stats.hash)
+                format!(
+                    "{name}  {rays} rays, {time}, hash {:016x}\n{remarks}",
+                    stats.hash
+                )
             }
             StatsFormat::Json => serde_json::to_string(&stats)? + "\n",
         })
@@ -256,6 +275,13 @@ fn read_views(path: &Path) -> Result<Vec<Camera>, Error> {
         let source = "\n".repeat(i) + line;
         let view =
             parse(&source).map_err(|mistakes| Error::Scene(mistakes.draw(&name, &source)))?;
+        if !(view.lights.is_empty() && view.surfaces.is_empty() && view.objects.is_empty()) {
+            return Err(Error::Failed(format!(
+                "{}:{}: more than a view: expected only 'v x y z', and for NFF 'at', 'up' and 'angle'",
+                name::line(&name),
+                i + 1
+            )));
+        }
         let kind = std::mem::discriminant(&view.camera);
         if cameras
             .first()

@@ -298,3 +298,51 @@ fn a_wire_frame_has_a_line_wherever_another_object_begins() {
         }
     }
 }
+
+#[test]
+fn a_view_from_which_nothing_can_be_seen_is_refused_with_its_frame() {
+    let folder = folder();
+    for (second, why) in [
+        ("v 0 2 -9 at 0 0 0 up 0 1 0", "parallel"),
+        ("v 0 -2 -9 at 0 0 0 up 0 1 0", "looks at"),
+        ("v 0 2 8 at 0 0 0 up 0 -1 0", "up"),
+    ] {
+        let views = format!("v 0 2 9 at 0 0 0 up 0 1 0 angle 40\n{second} angle 40\n");
+        fs::write(folder.path().join("through"), views).unwrap();
+        let line = "render a.scene --path through --frames 3 -o out.png";
+        let output = octray(folder.path(), line).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{second}");
+        assert!(
+            complaint.starts_with("error: frame 2 of 3: "),
+            "{complaint}"
+        );
+        assert!(complaint.contains(why), "{complaint}");
+        assert!(!folder.path().join("out-0001.png").exists());
+    }
+}
+
+#[test]
+fn what_a_picture_warns_of_a_frame_warns_of() {
+    let folder = folder();
+    let away = "v 0 2 9 at 0 0 0 up 0 1 0 angle 40\nv 0 2 9 at 0 9 99 up 0 1 0 angle 40\n";
+    fs::write(folder.path().join("away"), away).unwrap();
+    let told = done(folder.path(), "render a.scene --path away -o out.png");
+    let lines: Vec<_> = told.lines().collect();
+    assert_eq!(lines.len(), 3, "{told}");
+    assert!(lines[1].starts_with("out-0002.png"), "{told}");
+    assert!(lines[2].starts_with("  "), "{told}");
+    fs::write(
+        folder.path().join("with"),
+        "v 0 2 9 at 0 0 0 up 0 1 0 angle 40 l 0 1 0 1\n",
+    )
+    .unwrap();
+    let output = octray(folder.path(), "render a.scene --path with -o out.png")
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        complaint.starts_with("error: with:1: more than a view"),
+        "{complaint}"
+    );
+}

@@ -313,6 +313,21 @@ For more information, try '--help'.
 }
 
 #[test]
+fn an_output_of_no_form_is_bad_usage() {
+    let folder = folder();
+    octray(folder.path(), "trace a.scene -p 1,1 -o x.png")
+        .assert()
+        .code(2)
+        .stderr_eq(str![[r#"
+error: '.png' is no form of the tree: expected '.txt', '.json' or '.svg', or --format
+
+For more information, try '--help'.
+
+"#]]);
+    assert!(!folder.path().join("x.png").exists());
+}
+
+#[test]
 fn a_tree_without_end_is_refused() {
     let folder = folder();
     let hall = "v 0 0 4 at 0 0 0 up 0 1 0 angle 60 resolution 16 16 b 0.2 0.3 0.4

@@ -158,7 +158,11 @@ pub fn scene(scene: &Scene) -> Result<(), Broken> {
     Ok(())
 }
 
-pub(crate) fn camera(camera: &Camera) -> Result<(), Fault> {
+/// Checks a camera.
+///
+/// # Errors
+/// The first violated invariant.
+pub fn camera(camera: &Camera) -> Result<(), Fault> {
     match camera {
         Camera::Thesis { viewpoint, .. } => {
             finite(viewpoint)?;

@@ -154,8 +154,9 @@ impl Picture {
 
 /// ⌊255·c + ½⌋ of `c` clamped to [0, 1], computed in `f64`; 0 for NaN.
 pub fn level(c: f32) -> u8 {
-    // The cast saturates, truncates towards zero, and takes NaN to 0.
-    (255.0 * f64::from(c.clamp(0.0, 1.0)) + 0.5) as u8
+    // In f32, so that what was rounded to it, such as 0.9, is rounded as it was before. The cast saturates, truncates
+    // towards zero, and takes NaN to 0.
+    (255.0 * c.clamp(0.0, 1.0) + 0.5) as u8
 }
 
 /// Memory of zeros that nobody has touched yet: the threads that fill it do that side by side. `None` when

@@ -13,7 +13,8 @@ pub(super) struct FramesArgs {
     /// Render N pictures along a path, as numbered files: out-0001.png and so on for -o out.png
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=9999), help_heading = FRAMES)]
     frames: Option<u32>,
-    /// Turn the camera about what it looks at, by this many degrees in all; 360 with --frames gives an endless orbit
+    /// Turn the camera about what it looks at, by this many degrees; with --frames N frame I by (I - 1) / N of them, so that
+    /// 360 closes the circle
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees, conflicts_with = "path", help_heading = FRAMES)]
     orbit: Option<f64>,
     /// Move the camera through the views in a file, which has on each line a view as a scene file has it:

@@ -6,7 +6,7 @@ use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::error::Error;
-use octray_scenes::input;
+use octray_scenes::{input, name};
 use std::path::PathBuf;
 
 /// Arguments of `octray trace`.
@@ -81,7 +81,19 @@ impl TraceArgs {
         let extension = (self.output.as_ref())
             .and_then(|path| path.extension())
             .map(|extension| extension.to_string_lossy().to_lowercase());
-        let named = extension.and_then(|extension| TraceFormat::named(&extension));
+        let named = match extension.as_deref() {
+            None | Some("txt") => None,
+            Some(extension) if self.format.is_none() => {
+                let named = TraceFormat::named(extension).ok_or_else(|| {
+                    Error::Usage(format!(
+                        "'.{}' is no form of the tree: expected '.txt', '.json' or '.svg', or --format",
+                        name::line(extension)
+                    ))
+                })?;
+                Some(named)
+            }
+            Some(_) => None,
+        };
         let format = self.format.or(named).unwrap_or_default();
         if self.through && format == TraceFormat::Svg {
             return Err(Error::Usage("--through is told as text or json".into()));

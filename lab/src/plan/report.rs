@@ -101,6 +101,7 @@ impl PlanReport {
         let strips = Probe::strips(scope.scene, &chosen.plan, scope.interrupt)?;
         let dearest = strips.iter().map(&instructions).fold(0.0, f64::max);
         let rows = chosen.plan.size.1.div_ceil(ROWS as u32).max(1);
+        let mean = chosen.cost.instructions / f64::from(rows);
         let decisions = vec![
             bounces(accuracy, less),
             pixels_per_ray(accuracy, less),
@@ -114,8 +115,9 @@ impl PlanReport {
             cost: Some(Cost {
                 instructions: chosen.cost.instructions.round() as u64,
                 dearest: Strip {
-                    instructions: dearest.round() as u64,
-                    mean: (chosen.cost.instructions / f64::from(rows)).round() as u64,
+                    // A strip of background costs something, too.
+                    instructions: dearest.max(mean).round() as u64,
+                    mean: mean.round() as u64,
                 },
                 flash: chosen.cost.flash(),
                 ram: chosen.cost.ram(),
