@@ -189,8 +189,8 @@ pub fn eight(outcomes: &Outcomes, simulation: &Simulation, full_size: bool) -> D
                 simulation,
                 &format!("on {} processors", simulation.processors),
             ),
-            "The thesis does not tell its number of processors. By its tables VIII and IX they are 7.02 and 7.04 times as \
-             fast as one, so there were eight. Beyond H = 32 a few tiles decide, and where a picture's costs lie is known of \
+            "The table does not tell its number of processors. By it and table IX they are 7.02 and 7.04 times as fast as \
+             one: all eight of the thesis's machine. Beyond H = 32 a few tiles decide, and where a picture's costs lie is known of \
              ours only."
                 .into(),
         ],
