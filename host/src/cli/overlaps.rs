@@ -9,7 +9,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Spheres and boxes are closed; cones, polygons and patches are open. Two objects cross if points of one surface lie on both \
 sides of the other; one is inside a closed one if nothing of it is outside. What only touches, also along a common edge or \
-face, is not listed. Two cones are compared along 256 lines of each; all other tests are exact.")]
+face, is not listed. Two cones are compared along 256 lines and 65 circles of each, and flat shapes with those circles; \
+all other tests are exact.")]
 pub struct OverlapsArgs {
     /// The scene file
     scene: PathBuf,

@@ -176,10 +176,32 @@ impl Cone {
         ]
     }
 
-    /// The circles at its ends: middle and radius.
-    pub(super) fn rims(&self) -> [(Point, f64); 2] {
-        let top = add(self.base, times(self.axis, self.height));
-        [(self.base, self.radii[0]), (top, self.radii[1])]
+    /// At least two circles, from its base to its top, as far from each other: middle and radius.
+    pub(super) fn circles(&self, count: u32) -> impl Iterator<Item = (Point, f64)> + '_ {
+        (0..count).map(move |i| {
+            let share = f64::from(i) / f64::from(count - 1);
+            let middle = add(self.base, times(self.axis, self.height * share));
+            let radius = self.radii[0] * (1.0 - share) + self.radii[1] * share;
+            (middle, radius)
+        })
+    }
+
+    /// The point of a circle at an angle about the axis.
+    pub(super) fn around(&self, middle: Point, radius: f64, angle: f64) -> Point {
+        let (sine, cosine) = angle.sin_cos();
+        let out = add(times(self.across[0], cosine), times(self.across[1], sine));
+        add(middle, times(out, radius))
+    }
+
+    /// How much farther from the axis a point is than the side; `None` beyond the ends.
+    pub(super) fn outside(&self, p: Point, slack: f64) -> Option<f64> {
+        let from = minus(p, self.base);
+        let height = dot(from, self.axis);
+        let radius = self.radii[0] + (self.radii[1] - self.radii[0]) * height / self.height;
+        let out = length(minus(from, times(self.axis, height)));
+        (slack..self.height - slack)
+            .contains(&height)
+            .then_some(out - radius)
     }
 
     /// Where a line from `a` to `b` passes through the side, as shares of the way; it must not just touch it, nor end on it.

@@ -3,7 +3,7 @@
 //! Spheres and boxes are closed, cones (which have no caps), polygons and patches are open. Two shapes *cross* if points of
 //! one surface lie on both sides of the other; one is *inside* a closed one if none of its surface is outside. Shapes that
 //! only touch, also along a common edge or face, do neither, and coplanar polygons touch. All tests are exact up to `slack`
-//! but one: two cones are compared along [`LINES`] lines of each.
+//! but those of cones: two are compared along [`LINES`] lines and [`CIRCLES`] circles of each, and flat shapes meet those circles.
 
 use super::body::{Body, Cone, Polygon, length, minus};
 use octray_scenes::model::Point;
@@ -12,6 +12,9 @@ use std::f64::consts::TAU;
 
 /// Lines of a cone that are tested against another cone.
 const LINES: u32 = 256;
+
+/// Circles of a cone, from its base to its top, that are tested against another shape.
+pub(super) const CIRCLES: u32 = 65;
 
 /// How two shapes lie to each other, if they do not just lie apart or touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +44,8 @@ pub(super) fn relation(a: &Body, b: &Body, slack: f64) -> Option<Relation> {
             crossing(cone_and_polygon(b, a, slack))
         }
         (Body::Cone(a), Body::Cone(b)) => {
-            crossing(lines_cross(a, b, slack) || lines_cross(b, a, slack))
+            let part = |a, b| lines_cross(a, b, slack) || circles_cross(a, b, slack);
+            crossing(part(a, b) || part(b, a))
         }
     }
 }
@@ -161,8 +165,22 @@ fn cone_enters([low, high]: [Point; 2], cone: &Cone, slack: f64) -> bool {
     // A line of the side; else what is in the box ends at an edge of it, or at an end of the cone.
     enters(inner, line, 0.0)
         || box_edges(inner).any(|edge| !cone.crossings(edge, 0.0).is_empty())
-        || faces(inner).iter().any(|face| rims_cross(cone, face, 0.0))
+        || faces(inner)
+            .iter()
+            .any(|face| circles_pass(cone, face, 0.0))
         || contains(inner, line[0])
+}
+
+/// Whether a circle of a cone passes through the side of another one: one of its points is inside, and the next one
+/// outside. So parallel cylinders are found, whose lines never meet.
+fn circles_cross(cone: &Cone, other: &Cone, slack: f64) -> bool {
+    cone.circles(CIRCLES).any(|(middle, radius)| {
+        let out = |i: u32| other.outside(cone.around(middle, radius, angle(i)), slack);
+        (0..LINES).any(|i| match (out(i), out(i + 1)) {
+            (Some(a), Some(b)) => a.min(b) < -slack && a.max(b) > slack,
+            _ => false,
+        })
+    })
 }
 
 /// Whether a cone's side and a polygon cross: along an edge of either, or all around the cone.
@@ -170,12 +188,12 @@ fn cone_and_polygon(cone: &Cone, polygon: &Polygon, slack: f64) -> bool {
     polygon
         .edges()
         .any(|edge| !cone.crossings(edge, slack).is_empty())
-        || rims_cross(cone, polygon, slack)
+        || circles_pass(cone, polygon, slack)
         || passes(cone.line(0.0), polygon, slack)
 }
 
-/// Whether a circle at an end of a cone passes through a polygon.
-fn rims_cross(cone: &Cone, polygon: &Polygon, slack: f64) -> bool {
+/// Whether a circle of a cone passes through a polygon.
+fn circles_pass(cone: &Cone, polygon: &Polygon, slack: f64) -> bool {
     let along = cross(cone.axis, polygon.normal);
     let sine = length(along);
     if sine < 1e-9 {
@@ -183,7 +201,7 @@ fn rims_cross(cone: &Cone, polygon: &Polygon, slack: f64) -> bool {
     }
     let along = times(along, 1.0 / sine);
     let down = cross(along, cone.axis);
-    cone.rims().iter().any(|&(middle, radius)| {
+    cone.circles(CIRCLES).any(|(middle, radius)| {
         // In the circle's plane the polygon's plane is a line at this distance.
         let away = polygon.height(middle) / dot(down, polygon.normal);
         if away.abs() >= radius - slack {
@@ -208,10 +226,14 @@ fn passes([a, b]: [Point; 2], polygon: &Polygon, slack: f64) -> bool {
     polygon.contains(p) && polygon.rim_distance(p) > slack
 }
 
+/// The angle of one of [`LINES`] lines.
+fn angle(line: u32) -> f64 {
+    TAU * f64::from(line) / f64::from(LINES)
+}
+
 /// Whether lines of one cone's side pass through the other's.
 fn lines_cross(a: &Cone, b: &Cone, slack: f64) -> bool {
-    let angles = (0..LINES).map(|i| TAU * f64::from(i) / f64::from(LINES));
-    let mut lines = angles.map(|angle| a.line(angle));
+    let mut lines = (0..LINES).map(|i| a.line(angle(i)));
     lines.any(|line| !b.crossings(line, slack).is_empty())
 }
 
