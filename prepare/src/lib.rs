@@ -8,6 +8,7 @@
 //! | [`mod@format`], [`dispatch`] | the list of number formats, and the conversion of a name into a type |
 //! | [`limits`] | bounds of values that cannot be scaled, so that nothing overflows |
 //! | [`mod@quantise`] | places and scales a scene in the numbers of one format |
+//! | [`samples`] | how many rays a pixel gets |
 //! | [`saturation`] | counts saturations of fixed point per thread |
 //! | [`tree`] | builds trees of a quantised scene in heap memory |
 //! | [`mod@prepare`] | instantiates quantising and building trees once per format |
@@ -26,6 +27,7 @@ pub mod literal;
 pub mod plan;
 pub mod prepare;
 pub mod quantise;
+pub mod samples;
 pub mod saturation;
 pub mod settings;
 pub mod target;
@@ -33,9 +35,9 @@ pub mod tree;
 
 pub use format::{Arith, Format};
 pub use prepare::Prepare;
+pub use samples::{Adaptive, Samples};
 pub use settings::{
-    Adaptive, FirmwareTree, Link, PixelsPerRay, RenderSettings, Samples, TreeKind, TreeSettings,
-    Walk,
+    FirmwareTree, Link, PixelsPerRay, RenderSettings, TreeKind, TreeSettings, Walk,
 };
 
 /// The examples of the README are compiled and run.

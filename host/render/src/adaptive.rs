@@ -19,7 +19,7 @@ use crate::tile::{Intensity, TileBuffer, TileSize};
 use fnv::FnvHashMap;
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
-use octray_prepare::settings::Adaptive;
+use octray_prepare::Adaptive;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::sync::Mutex;
 

@@ -2,7 +2,8 @@
 
 use super::extent::shape_box;
 use super::{Extent, Placement, vector};
-use crate::settings::{Adaptive, RenderSettings};
+use crate::samples::Adaptive;
+use crate::settings::RenderSettings;
 use octray_core::camera::{Camera, Projection};
 use octray_core::frame::{Frame, Region};
 use octray_core::quantize::Quantize;
