@@ -1,8 +1,9 @@
 //! `octray convert`: pictures go through all formats, files and pipes.
 
+mod common;
+
+use common::octray;
 use octray_render::picture::{self, Picture};
-use snapbox::cmd::Command;
-use snapbox::cmd::cargo_bin;
 use snapbox::str;
 use std::fs;
 use std::path::Path;
@@ -26,12 +27,6 @@ fn folder() -> TempDir {
         "render a.scene --stats none -o a.ras --ras-depth 24",
     );
     folder
-}
-
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
 }
 
 fn done(folder: &Path, line: &str) -> Vec<u8> {

@@ -1,8 +1,9 @@
 //! `octray render` with a moving camera, and as a wire frame.
 
+mod common;
+
+use common::{names, octray};
 use octray_render::picture::{self, Picture};
-use snapbox::cmd::Command;
-use snapbox::cmd::cargo_bin;
 use snapbox::str;
 use std::fs;
 use std::path::Path;
@@ -34,12 +35,6 @@ fn folder() -> TempDir {
     folder
 }
 
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
-}
-
 fn done(folder: &Path, line: &str) -> String {
     let output = octray(folder, line).output().unwrap();
     let complaint = String::from_utf8(output.stderr).unwrap();
@@ -52,15 +47,6 @@ fn done(folder: &Path, line: &str) -> String {
 
 fn read(folder: &Path, name: &str) -> Picture {
     picture::read(&folder.join(name)).unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Options of `octray render` that change the picture: lights left out, opaque surfaces, pixels per ray.
 
+mod common;
+
+use common::octray;
 use octray_render::metric::Difference;
 use octray_render::picture::{self, Picture};
 use serde_json::Value;
-use snapbox::cmd::Command;
-use snapbox::cmd::cargo_bin;
 use snapbox::str;
 use std::fs;
 use std::path::Path;
@@ -27,12 +28,6 @@ fn folder() -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("a.scene"), SCENE).unwrap();
     folder
-}
-
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
 }
 
 /// Returns the picture of the scene with these options, and the statistics.

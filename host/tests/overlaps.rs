@@ -1,10 +1,10 @@
 //! `octray overlaps` and `octray trace --through`: what is in the way of what.
 
-use snapbox::cmd::Command;
-use snapbox::cmd::cargo_bin;
+mod common;
+
+use common::octray;
 use snapbox::str;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 /// A ball in a box, a pole through it, all on a floor.
@@ -20,12 +20,6 @@ fn folder() -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("a.scene"), SCENE).unwrap();
     folder
-}
-
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! `octray trace`: the tree of a pixel is that of its picture.
 
+mod common;
+
+use common::octray;
 use serde_json::Value;
-use snapbox::cmd::Command;
-use snapbox::cmd::cargo_bin;
 use snapbox::str;
 use std::fs;
 use std::path::Path;
@@ -24,12 +25,6 @@ fn folder() -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("a.scene"), SCENE).unwrap();
     folder
-}
-
-fn octray(folder: &Path, line: &str) -> Command {
-    Command::new(cargo_bin!("octray"))
-        .current_dir(folder)
-        .args(line.split_whitespace())
 }
 
 fn done(folder: &Path, line: &str) -> Vec<u8> {

@@ -247,7 +247,7 @@ macro_rules! fixed_bound {
             const GRID_SLACK: i32 = 4;
 
             fn lowered(self) -> Self {
-                Ord::max(self.saturating_sub(8 << $below), Self::MIN)
+                self.saturating_sub(8 << $below)
             }
 
             fn raised(self) -> Self {

@@ -17,7 +17,7 @@ use crate::tile::{TileBuffer, TileSize};
 use octray_core::frame::Region;
 use octray_core::observe::Counters;
 use octray_prepare::format::Format;
-use octray_prepare::settings::RenderSettings;
+use octray_prepare::{Adaptive, RenderSettings};
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -82,17 +82,14 @@ pub fn render_with(
     let renderer = renderer::prepare(scene, settings)?;
     let build = begin.elapsed();
     let begin = Instant::now();
-    let rendered = match settings.adaptive {
-        None => render_tiles(&*renderer, schedule, holds_intensities, progress, interrupt)?,
-        Some(how) => adaptive::render(
-            &*renderer,
-            how,
-            schedule,
-            holds_intensities,
-            progress,
-            interrupt,
-        )?,
-    };
+    let rendered = render_prepared(
+        &*renderer,
+        settings.adaptive,
+        schedule,
+        holds_intensities,
+        progress,
+        interrupt,
+    )?;
     let (picture, counters, work, saturations) = rendered;
     let times = (build, begin.elapsed());
     Ok(rendering(
@@ -103,6 +100,31 @@ pub fn render_with(
         times,
         work,
     ))
+}
+
+/// Renders what is ready to be traced, with adaptive samples if they are wanted: as [`render_tiles`] does.
+///
+/// # Errors
+/// Those of [`render_tiles`].
+pub fn render_prepared(
+    renderer: &dyn Renderer,
+    adaptive: Option<Adaptive>,
+    schedule: &Schedule,
+    holds_intensities: bool,
+    progress: &dyn Progress,
+    interrupt: &Interrupt,
+) -> Result<(Picture, Counters, Work, u64), Error> {
+    match adaptive {
+        None => render_tiles(renderer, schedule, holds_intensities, progress, interrupt),
+        Some(how) => adaptive::render(
+            renderer,
+            how,
+            schedule,
+            holds_intensities,
+            progress,
+            interrupt,
+        ),
+    }
 }
 
 /// A picture that was traced, and what it cost: counted events, saturations, the time to build and the time

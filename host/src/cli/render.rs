@@ -116,14 +116,11 @@ impl RenderArgs {
     pub fn job(self) -> Result<RenderJob, Error> {
         let usage = |text: &str| Err(Error::Usage(text.into()));
         let (pixels, block) = (self.pixels_per_ray.number(), self.pixels_per_ray.side());
-        let (samples, adaptive) = match self.samples {
-            Samples::Uniform(samples) => (samples, None),
-            Samples::Adaptive(how) => (1, Some(how)),
-        };
-        if pixels > 1 && (samples > 1 || adaptive.is_some()) {
+        let one_ray = self.samples == Samples::Uniform(1);
+        if pixels > 1 && !one_ray {
             return usage("--pixels-per-ray and --samples, both above 1, contradict each other");
         }
-        if self.wire && (samples > 1 || adaptive.is_some()) {
+        if self.wire && !one_ray {
             return usage("--wire draws lines of whole pixels: leave out --samples");
         }
         if (self.tile_rows).is_some_and(|rows| !rows.get().is_multiple_of(block)) {
@@ -150,7 +147,7 @@ impl RenderArgs {
         }
         let threads = match self.mpi {
             true if !cfg!(feature = "mpi") => return usage(NO_MPI),
-            true if adaptive.is_some() => {
+            true if matches!(self.samples, Samples::Adaptive(_)) => {
                 return usage(
                     "with --samples adaptive, tiles share rays, which ranks cannot: leave out --mpi",
                 );
@@ -195,10 +192,9 @@ impl RenderArgs {
                 size: self.size,
                 orbit,
                 pixels_per_ray: self.pixels_per_ray,
-                samples,
-                adaptive,
                 max_depth: self.max_depth,
                 cut_off: self.cut_off,
+                ..RenderSettings::DEFAULT.with_samples(self.samples)
             },
             work: Schedule {
                 threads: threads.unwrap_or(Schedule::default().threads),

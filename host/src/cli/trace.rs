@@ -25,7 +25,7 @@ pub struct TraceArgs {
     /// The arithmetic to trace in, or two to compare
     #[arg(long, value_name = "A[,B]", value_delimiter = ',', value_parser = value::choice::<Arith>(), default_value = Arith::default().name())]
     arith: Vec<Arith>,
-    /// Tell all surfaces along the rays of the camera instead, as if they were not there, up to 65
+    /// Tell the surfaces along the rays of the camera instead, as if they were not there, up to 65; of those at one place, one
     #[arg(long)]
     through: bool,
     /// The form of the tree [default: text; svg or json if the output's name ends so]
@@ -81,20 +81,16 @@ impl TraceArgs {
         let extension = (self.output.as_ref())
             .and_then(|path| path.extension())
             .map(|extension| extension.to_string_lossy().to_lowercase());
-        let named = match extension.as_deref() {
-            None | Some("txt") => None,
-            Some(extension) if self.format.is_none() => {
-                let named = TraceFormat::named(extension).ok_or_else(|| {
-                    Error::Usage(format!(
-                        "'.{}' is no form of the tree: expected '.txt', '.json' or '.svg', or --format",
-                        name::line(extension)
-                    ))
-                })?;
-                Some(named)
-            }
-            Some(_) => None,
+        let format = match (self.format, extension.as_deref()) {
+            (Some(format), _) => format,
+            (None, None | Some("txt")) => TraceFormat::Text,
+            (None, Some(extension)) => TraceFormat::named(extension).ok_or_else(|| {
+                Error::Usage(format!(
+                    "'.{}' is no form of the tree: expected '.txt', '.json' or '.svg', or --format",
+                    name::line(extension)
+                ))
+            })?,
         };
-        let format = self.format.or(named).unwrap_or_default();
         if self.through && format == TraceFormat::Svg {
             return Err(Error::Usage("--through is told as text or json".into()));
         }

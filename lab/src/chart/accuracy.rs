@@ -6,12 +6,11 @@ use crate::budget;
 use octray_core::observe::RayKind;
 use octray_prepare::format::Format;
 use octray_prepare::{Adaptive, Arith, RenderSettings};
-use octray_render::adaptive;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::picture::Picture;
-use octray_render::render::render_tiles;
+use octray_render::render::render_prepared;
 use octray_render::renderer::{self, FirstHit, Renderer};
 use octray_render::scene_file;
 use octray_render::schedule::Schedule;
@@ -98,7 +97,14 @@ impl<'a> Judge<'a> {
                 },
             )?;
             let interrupt = interrupt.with_budget(budget);
-            let rendered = render_tiles(&*renderer, &Schedule::default(), false, &(), &interrupt)?;
+            let rendered = render_prepared(
+                &*renderer,
+                None,
+                &Schedule::default(),
+                false,
+                &(),
+                &interrupt,
+            )?;
             let hits = rendered.1.hits[RayKind::Primary as usize];
             Ok((rendered.0, hits))
         })?;
@@ -183,10 +189,7 @@ fn render(
     interrupt: &Interrupt,
 ) -> Result<Picture, Error> {
     let work = Schedule::default();
-    let rendered = match setting.adaptive {
-        None => render_tiles(renderer, &work, false, &(), interrupt)?,
-        Some(how) => adaptive::render(renderer, how, &work, false, &(), interrupt)?,
-    };
+    let rendered = render_prepared(renderer, setting.adaptive, &work, false, &(), interrupt)?;
     Ok(rendered.0)
 }
 
