@@ -47,7 +47,7 @@ pub use build::{BuildError, BuildOptions, BuildStats};
 pub use bvh8::{Bvh8, Bvh8Memory, Bvh8Node};
 pub use clip::{ClipBoxes, SlabPlanes};
 pub use compact_bvh8::{
-    COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactBvh8, CompactStack, StackTooSmall,
+    COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactBvh8, CompactStack, StackTooSmall, compact_words,
 };
 pub use inv_direction::InvDirection;
 pub use octree::{FaceLinks, LinkBy, Octree, OctreeNode, OctreeVariant, Walk};

@@ -106,6 +106,32 @@ impl<S: TraceScalar> Frame<S> {
         })
     }
 
+    /// A picture of `width` × `height` pixels with a ray for each of them.
+    pub fn whole(camera: Camera<S>, width: u32, height: u32) -> Self {
+        let active = Region {
+            columns: 0..width,
+            rows: 0..height,
+        };
+        Self::new(camera, width, height, 1, 1, active)
+    }
+
+    /// The same picture from another camera: of all pixels, as others may see something now.
+    #[must_use]
+    pub fn from_camera(&self, camera: Camera<S>) -> Self {
+        let FrameParams {
+            width,
+            height,
+            block,
+            samples,
+            ..
+        } = self.0;
+        let active = Region {
+            columns: 0..width,
+            rows: 0..height,
+        };
+        Self::new(camera, width, height, block, samples, active)
+    }
+
     /// The picture that [`Frame::params`] came from.
     pub const fn from_params(params: FrameParams<S>) -> Self {
         Self(params)

@@ -89,3 +89,4 @@ mod shade;
 pub mod shape;
 pub mod trace;
 pub mod vec3;
+pub mod world;

@@ -81,9 +81,7 @@ impl<const F: u32, C: SaturationCounter> Quantize for Fixed<F, C> {
     const SLACK: f64 = 4.0 / (1u64 << F) as f64;
 
     fn from_f64(x: f64) -> Self {
-        // `as` saturates and makes NaN 0; the most negative value has no opposite.
-        let scaled = x * (1u64 << F) as f64;
-        Self::from_bits((libm::floor(scaled + 0.5) as i32).max(-i32::MAX))
+        Self::nearest(x)
     }
 
     fn to_f64(self) -> f64 {
@@ -97,8 +95,7 @@ impl<C: SaturationCounter> Quantize for Fixed64<C> {
     const SLACK: f64 = 1.0 / (1u64 << 28) as f64;
 
     fn from_f64(x: f64) -> Self {
-        let scaled = x * (1u64 << 32) as f64;
-        Self::from_bits((libm::floor(scaled + 0.5) as i64).max(-i64::MAX))
+        Self::nearest(x)
     }
 
     fn to_f64(self) -> f64 {

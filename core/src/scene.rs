@@ -1,5 +1,9 @@
 //! A scene in the arithmetic it is rendered in: borrowed slices, in memory or flash.
 
+mod fits;
+
+pub use fits::OutOfRoom;
+
 use crate::accel::AccelScalar;
 use crate::checker::Checker;
 use crate::features::{self, ALL_FEATURES, FeatureSet};
@@ -120,6 +124,69 @@ pub struct Surface<S> {
     pub leaving: S,
     /// Its checker in [`Scene::checkers`], counted from 1; 0 if it has none.
     pub checker: u32,
+}
+
+impl<S: Scalar> Surface<S> {
+    /// Black: it sends out nothing.
+    pub const BLACK: Self = Self {
+        ambient: Vec3::ZERO,
+        diffuse: Vec3::ZERO,
+        specular: Vec3::ZERO,
+        shine: Exponent {
+            whole: 0,
+            fraction: S::ZERO,
+        },
+        reflect: S::ZERO,
+        refract: S::ZERO,
+        entering: S::ONE,
+        leaving: S::ONE,
+        checker: 0,
+    };
+
+    /// A surface that scatters light of this colour.
+    pub const fn matt(diffuse: Vec3<S>) -> Self {
+        Self {
+            diffuse,
+            ..Self::BLACK
+        }
+    }
+
+    /// The same, which also sends out this light without any lamp.
+    #[must_use]
+    pub const fn with_ambient(self, ambient: Vec3<S>) -> Self {
+        Self { ambient, ..self }
+    }
+
+    /// The same with highlights: their colour, and the exponent that makes them small.
+    #[must_use]
+    pub const fn with_highlights(self, specular: Vec3<S>, shine: u32) -> Self {
+        Self {
+            specular,
+            shine: Exponent {
+                whole: shine,
+                fraction: S::ZERO,
+            },
+            ..self
+        }
+    }
+
+    /// The same as a mirror that returns this share, 0 to 1, of the light that comes along the mirrored ray.
+    #[must_use]
+    pub const fn with_mirror(self, reflect: S) -> Self {
+        Self { reflect, ..self }
+    }
+
+    /// The same as glass that lets this share, 0 to 1, of the light through. The index of refraction and 1 over it
+    /// tell how rays bend: both ≤ [`Scalar::MAX`], both 1 if they do not.
+    #[must_use]
+    pub const fn with_glass(self, refract: S, index: S, inverse: S) -> Self {
+        Self {
+            refract,
+            entering: inverse,
+            leaving: index,
+            ..self
+        }
+    }
 }
 
 /// A background that changes with the ray's direction.
@@ -246,6 +313,12 @@ impl<'a, S: Scalar, const FEATURES: FeatureSet> Scene<'a, S, FEATURES> {
             surface: 0,
             patch: Attributes::FLAT,
         })
+    }
+
+    /// The object of this identity, for instance to move it. Looks at one after another.
+    pub fn object(&self, id: u32) -> Option<ObjectRef> {
+        let same = |object: &ObjectRef| self.attributes_of(*object).id == id;
+        self.shapes.refs().find(same)
     }
 
     /// Where each kind begins in the attributes of a scene with these shapes.

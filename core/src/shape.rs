@@ -8,6 +8,7 @@
 
 mod bands;
 mod cone;
+mod cone_of;
 mod contact;
 mod cuboid;
 mod ends;
@@ -21,6 +22,7 @@ mod triangle;
 
 pub use bands::{Bands, Outlines};
 pub use cone::Cone;
+pub use cone_of::cone_box;
 pub use contact::Contact;
 pub use cuboid::Cuboid;
 pub(crate) use even_odd::encloses;

@@ -121,7 +121,7 @@ fn no_ray_passes_between<S: Quantize>() {
         let forest = Forest::new(&prepared.scene, seed);
         let mut rng = Rng::with_seed(seed);
         for number in 0..400 {
-            let ray = mesh.ray::<S>(&prepared.placement, &mut rng);
+            let ray = mesh.ray::<S>(&prepared.world, &mut rng);
             let case = format!("mesh {seed}, ray {number}");
             let hits = wrong.hits;
             forest.compare(&ray, &mut rng, &mut wrong, &case);

@@ -75,7 +75,7 @@ impl PanelColor for BinaryColor {
 }
 
 /// Luma by the weights of ITU-R BT.601, in 1/256, rounded to nearest.
-fn luma(colour: Rgb888) -> u8 {
+pub(crate) fn luma(colour: Rgb888) -> u8 {
     let [r, g, b] = [colour.r(), colour.g(), colour.b()].map(u32::from);
     ((77 * r + 150 * g + 29 * b + 128) >> 8) as u8
 }

@@ -10,6 +10,7 @@ use octray_core::features::FeatureSet;
 use octray_core::frame::Frame;
 use octray_core::observe::RayObserver;
 use octray_core::trace::{TraceScalar, Tracer, Workspace};
+use octray_core::vec3::Vec3;
 
 /// Red, green and blue in 8 bits.
 pub type Level = [u8; 3];
@@ -37,23 +38,36 @@ where
     O: RayObserver<S>,
     D: DrawTarget<Color: From<Rgb888>>,
 {
-    let (width, height) = (frame.params().width, frame.params().height);
-    let background = tracer.scene.background;
-    let background = [background.x, background.y, background.z].map(S::level);
-    let strips = Strips {
-        width,
-        height,
-        block: frame.block(),
-    };
-    strips.draw(target, strip, |rows, pixels| {
-        pixels.fill(background);
-        let top = rows.start;
-        frame.render(rows, tracer, workspace, observer, |x, y, colour| {
-            if let Some(pixel) = pixels.get_mut(((y - top) * width + x) as usize) {
-                *pixel = [colour.x, colour.y, colour.z].map(S::level);
-            }
-        });
+    Strips::of(frame).draw(target, strip, |rows, pixels| {
+        render_rows(rows, frame, tracer, workspace, pixels, observer);
     })
+}
+
+/// Renders some rows of a picture into `pixels`, row by row, where there is room for them.
+pub(crate) fn render_rows<S, A, O, const FEATURES: FeatureSet>(
+    rows: Range<u32>,
+    frame: &Frame<S>,
+    tracer: &Tracer<'_, S, A, FEATURES>,
+    workspace: &mut Workspace<'_, S, A::Stack>,
+    pixels: &mut [Level],
+    observer: &mut O,
+) where
+    S: TraceScalar,
+    A: Accelerator<S, FEATURES>,
+    O: RayObserver<S>,
+{
+    let (width, top) = (frame.params().width, rows.start);
+    pixels.fill(levels(tracer.scene.background));
+    frame.render(rows, tracer, workspace, observer, |x, y, colour| {
+        if let Some(pixel) = pixels.get_mut(((y - top) * width + x) as usize) {
+            *pixel = levels(colour);
+        }
+    });
+}
+
+/// A colour in 8 bits.
+pub(crate) fn levels<S: TraceScalar>(colour: Vec3<S>) -> Level {
+    [colour.x, colour.y, colour.z].map(S::level)
 }
 
 /// A picture that is cut into strips of whole rows, whoever traces them.
@@ -68,6 +82,21 @@ pub struct Strips {
 }
 
 impl Strips {
+    /// Those of a frame.
+    pub fn of<S: TraceScalar>(frame: &Frame<S>) -> Self {
+        Self {
+            width: frame.params().width,
+            height: frame.params().height,
+            block: frame.block(),
+        }
+    }
+
+    /// The rows of a strip of so many pixels: whole ones, and whole squares of what one ray colours.
+    pub(crate) fn rows(self, pixels: usize) -> u32 {
+        let rows = pixels as u32 / self.width.max(1);
+        rows - rows % self.block.max(1)
+    }
+
     /// Draws the picture into `target`, from top to bottom. `trace` fills the pixels of some rows,
     /// row by row; they are in `strip`, as many whole rows as it has room for. With less room than
     /// for `block` rows, nothing is drawn.
@@ -80,20 +109,19 @@ impl Strips {
         strip: &mut [Level],
         mut trace: impl FnMut(Range<u32>, &mut [Level]),
     ) -> Result<(), D::Error> {
-        let (width, height) = (self.width, self.height);
-        let rows = strip.len() as u32 / width.max(1);
-        let rows = rows - rows % self.block.max(1);
+        let rows = self.rows(strip.len());
         if rows == 0 {
             return Ok(());
         }
         let mut top = 0;
-        while top < height {
-            let bottom = (top + rows).min(height);
-            let Some(pixels) = strip.get_mut(..((bottom - top) * width) as usize) else {
+        while top < self.height {
+            let bottom = (top + rows).min(self.height);
+            let Some(pixels) = strip.get_mut(..((bottom - top) * self.width) as usize) else {
                 break;
             };
             trace(top..bottom, pixels);
-            let area = Rectangle::new(Point::new(0, top as i32), Size::new(width, bottom - top));
+            let size = Size::new(self.width, bottom - top);
+            let area = Rectangle::new(Point::new(0, top as i32), size);
             let colours = pixels.iter().map(|&[r, g, b]| Rgb888::new(r, g, b).into());
             target.fill_contiguous(&area, colours)?;
             top = bottom;

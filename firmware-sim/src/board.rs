@@ -2,8 +2,6 @@
 
 #[cfg(target_arch = "arm")]
 mod cortex_m;
-mod dropped;
-mod marks;
 mod print;
 #[cfg(target_arch = "riscv32")]
 mod riscv;
@@ -16,17 +14,20 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Size};
 use embedded_graphics_core::pixelcolor::Rgb888;
 use embedded_graphics_core::primitives::Rectangle;
-use marks::{octray_pause, octray_resume};
 use octray_core::accel::Accelerator;
-use octray_core::trace::{QueuedRay, Tracer, Workspace};
+use octray_core::trace::Tracer;
 use octray_embedded::hash::HashPanel;
-use octray_embedded::render::{ROWS, render};
+use octray_embedded::render::ROWS;
+use octray_embedded::{DrawError, Renderer, marks};
 use semihosting::process::exit;
+
+/// Pixels of a strip.
+const PIXELS: usize = WIDTH as usize * ROWS as usize;
 
 /// Renders, reports, exits.
 fn run() -> ! {
     stack::paint();
-    let hash = frame();
+    let (hash, dropped) = frame();
     let deepest = stack::deepest();
     print::text("scene ");
     print::text(crate::baked::NAME);
@@ -35,7 +36,6 @@ fn run() -> ! {
     print::text("\nhash ");
     print::hexadecimal(hash);
     print::number("stack", deepest.unwrap_or(0));
-    let dropped = dropped::total();
     if dropped > 0 {
         print::number("dropped", dropped);
     }
@@ -53,15 +53,15 @@ fn fault() -> ! {
     exit(if stack::deepest().is_some() { 102 } else { 103 })
 }
 
-/// Renders the picture with the baked tree and returns its hash.
+/// [`trace`] with the baked tree.
 #[cfg(not(octray_device_tree))]
-fn frame() -> u64 {
+fn frame() -> (u64, u32) {
     trace(&crate::baked::TREE)
 }
 
-/// Builds the tree in its own memory, renders the picture and returns its hash; 0 if the tree does not fit.
+/// Builds the tree in its own memory, and [`trace`]; 0 if the tree does not fit.
 #[cfg(octray_device_tree)]
-fn frame() -> u64 {
+fn frame() -> (u64, u32) {
     use crate::baked::{GROWTH, OBJECTS, TREE_WORDS};
     use octray_core::accel::CompactBvh8;
     use octray_core::object::ObjectRef;
@@ -84,38 +84,28 @@ fn frame() -> u64 {
         .ok()
         .map(|(tree, _)| tree)
     }
-    build(&mut words, &mut links).map_or(0, |tree| trace(&tree))
+    build(&mut words, &mut links).map_or((0, 0), |tree| trace(&tree))
 }
 
-/// Renders the picture and returns its hash.
+/// Renders the picture and returns its hash, and how many rays found no room.
 #[inline(never)]
-fn trace<A: Accelerator<S, FEATURES>>(tree: &A) -> u64 {
+fn trace<A: Accelerator<S, FEATURES>>(tree: &A) -> (u64, u32) {
     let tracer = Tracer {
         scene: &SCENE,
         accelerator: tree,
         max_depth: MAX_DEPTH,
         cut_off: CUT_OFF,
     };
-    let mut rays = [QueuedRay::EMPTY; RAYS];
-    let mut shadow_cache = [None; LIGHTS];
-    let mut workspace = Workspace {
-        rays: &mut rays,
-        stack: &mut A::Stack::default(),
-        shadow_cache: &mut shadow_cache,
-    };
-    let mut strip = [[0; 3]; WIDTH as usize * ROWS as usize];
+    let mut renderer = Renderer::<S, A::Stack, RAYS, LIGHTS, PIXELS>::new();
     let mut panel = Panel(HashPanel::new(WIDTH, HEIGHT));
-    octray_resume();
-    let Ok(()) = render(
-        &mut panel,
-        &FRAME,
-        &tracer,
-        &mut workspace,
-        &mut strip,
-        &mut dropped::DropCounter,
-    );
-    octray_pause();
-    panel.0.hash()
+    marks::begin();
+    let drawn = renderer.draw(&FRAME, &tracer, &mut panel);
+    marks::end();
+    let dropped = match drawn {
+        Err(DrawError::RaysDropped { rays }) => rays,
+        _ => 0,
+    };
+    (panel.0.hash(), dropped)
 }
 
 /// The panel; its instructions are excluded from the count.
@@ -143,9 +133,9 @@ impl DrawTarget for Panel {
         area: &Rectangle,
         colours: I,
     ) -> Result<(), Infallible> {
-        octray_pause();
+        marks::end();
         let drawn = self.0.fill_contiguous(area, colours);
-        octray_resume();
+        marks::begin();
         drawn
     }
 }

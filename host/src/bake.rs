@@ -32,6 +32,8 @@ pub struct BakeJob {
     pub tree: FirmwareTree,
     /// The target's triple, if it is known.
     pub target: Option<String>,
+    /// The least and the greatest corner of a box in which things can move.
+    pub room: Option<[[f64; 3]; 2]>,
     /// A plan that replaces all of these settings.
     pub plan: Option<PathBuf>,
     /// The Rust source; standard output if `None`.
@@ -48,7 +50,8 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     }
     let read = |path| read_plan(path).map(|plan| (path, plan));
     let plan = job.plan.as_deref().map(read).transpose()?;
-    let scene = scene_file::read_reduced(&job.scene, job.reduction)?;
+    let mut scene = scene_file::read_reduced(&job.scene, job.reduction)?;
+    scene.room = job.room;
     interrupt.check()?;
     let name = job
         .scene

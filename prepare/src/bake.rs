@@ -11,12 +11,19 @@
 //! | `S`, `Tree` | the arithmetic; the tree's type, `Packed` or `List` |
 //! | `FEATURES` | what the scene uses, for [`octray_core::features`] |
 //! | `SCENE`, `TREE`, `FRAME` | the scene, its tree (unless the device builds it), its picture |
+//! | `TRACER` | the scene and its tree with the limits for following rays |
 //! | `MAX_DEPTH`, `CUT_OFF` | the limits for following rays |
 //! | `WIDTH`, `HEIGHT`, `RAYS`, `LIGHTS`, `OBJECTS` | the sizes that its memory depends on |
 //! | `TREE_WORDS`, `GROWTH` | only for a tree that the device builds: its size in words, and how it is built |
+//! | `WORLD`, `place`, `length` | where the scene lies in the numbers of the format; a point, a length in its units |
+//! | `BY_ID` | the objects in the order of the scene file |
+//! | `SPHERES`, `CUBOIDS`, `LAMPS`, … | the tables, to be copied and changed |
 //! | `NAME`, `ARITH` | the names of the scene and the format, for output |
 
+mod script;
 mod source;
+
+pub use script::{Script, file};
 
 use crate::dispatch::InFormat;
 use crate::format::Format;
@@ -25,6 +32,7 @@ use crate::prepare::Prepare;
 use crate::quantise::{Overflow, Prepared};
 use crate::settings::{RenderSettings, TreeKind};
 use crate::tree::{Growth, every_object};
+use octray_core::accel;
 use octray_core::features::{self, FeatureSet};
 use octray_core::object::ObjectKind;
 use octray_core::scalar::Scalar;
@@ -41,7 +49,8 @@ pub struct BakeOptions<'a> {
     /// Arithmetic, tree and picture. The tree is [`TreeKind::CompactBvh8`] or [`TreeKind::None`]; `max_depth` limits
     /// the bounces of a ray.
     pub settings: RenderSettings,
-    /// Whether the device builds the tree in its own memory; its size is computed while baking.
+    /// Whether the device builds the tree in its own memory; its size is computed while baking. If the scene has
+    /// [`Scene::room`], the size is enough wherever objects move.
     pub on_device: bool,
     /// The target's triple, e.g. `thumbv6m-none-eabi`; it decides the leaf size unless the settings do.
     pub target: Option<&'a str>,
@@ -146,6 +155,11 @@ fn bake_as<S: Prepare>(
         (TreeKind::CompactBvh8, true) => {
             // The device receives the objects in the order of the file.
             let words = grow(&mut prepared.scene.clone())?.words.len();
+            let words = match scene.room {
+                // However the objects move.
+                Some(_) => accel::compact_words(scene.objects.len()),
+                None => words,
+            };
             (source::Tree::Device(words, growth), every)
         }
         (other, _) => return Err(BakeError::Tree(other)),

@@ -12,6 +12,8 @@ pub trait Literal: Quantize {
     const RAW: &'static str;
     /// The function that makes a number from the bit pattern `raw` in a constant.
     const FROM_RAW: &'static str;
+    /// The source of the number nearest to the `f64` `x`, in a constant.
+    const NEAREST: &'static str;
     /// Returns the bit pattern.
     fn raw(self) -> String;
     /// Returns the source of a reciprocal in a constant.
@@ -25,6 +27,7 @@ impl<const F: u32, C: SaturationCounter> Literal for Fixed<F, C> {
     }
     const RAW: &'static str = "i32";
     const FROM_RAW: &'static str = "S::from_bits(raw)";
+    const NEAREST: &'static str = "S::nearest(x)";
     fn raw(self) -> String {
         self.to_bits().to_string()
     }
@@ -40,6 +43,7 @@ impl<C: SaturationCounter> Literal for Fixed64<C> {
     }
     const RAW: &'static str = "i64";
     const FROM_RAW: &'static str = "S::from_bits(raw)";
+    const NEAREST: &'static str = "S::nearest(x)";
     fn raw(self) -> String {
         self.to_bits().to_string()
     }
@@ -54,6 +58,7 @@ impl Literal for f32 {
     }
     const RAW: &'static str = "u32";
     const FROM_RAW: &'static str = "f32::from_bits(raw)";
+    const NEAREST: &'static str = "x as f32";
     fn raw(self) -> String {
         format!("{:#010x}", self.to_bits())
     }
@@ -68,6 +73,7 @@ impl Literal for f64 {
     }
     const RAW: &'static str = "u64";
     const FROM_RAW: &'static str = "f64::from_bits(raw)";
+    const NEAREST: &'static str = "x";
     fn raw(self) -> String {
         format!("{:#018x}", self.to_bits())
     }
@@ -82,6 +88,7 @@ impl<const N: u32> Literal for Approx<N> {
     }
     const RAW: &'static str = "u32";
     const FROM_RAW: &'static str = "scalar::Approx(f32::from_bits(raw))";
+    const NEAREST: &'static str = "scalar::Approx(x as f32)";
     fn raw(self) -> String {
         Literal::raw(self.0)
     }

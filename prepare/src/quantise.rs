@@ -10,7 +10,6 @@
 mod camera;
 mod checker;
 mod extent;
-mod plane;
 mod resolution;
 mod shapes;
 
@@ -27,57 +26,8 @@ use octray_core::scalar::{Exponent, Scalar};
 use octray_core::scene::{Attributes, Light, Parallax, Scene, Sky, Surface};
 use octray_core::shape::{Cone, Cuboid, Outlines, Patch, Polygon, Shapes, Sphere, Triangle};
 use octray_core::vec3::Vec3;
+use octray_core::world::World;
 use octray_scenes::model;
-
-/// The place of a scene in the numbers of a format: number = (coordinate − centre) · 2^exponent.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
-    /// What becomes the origin.
-    pub centre: model::Point,
-    /// The exponent of the scale.
-    pub exponent: i32,
-    /// The diagonal of everything, in scene units.
-    pub diagonal: f64,
-}
-
-impl Placement {
-    /// Returns the placement of a scene of this extent in format `S`.
-    pub fn of<S: Quantize>(extent: &Extent) -> Self {
-        // Boxes are wider than their shapes, and rounding needs a small margin.
-        let diagonal = extent.diagonal() * (1.0 + 4.0 * S::SLACK) * 1.001;
-        // A ray that starts at the edge of the scene and is as long as the diagonal ends at 1½ diagonals.
-        let room = if S::FRACTION_BITS.is_some() {
-            S::MAX.to_f64() / 1.5
-        } else {
-            2.0
-        };
-        let exponent = if diagonal > 0.0 {
-            (room / diagonal).log2().floor() as i32
-        } else {
-            0
-        };
-        Self {
-            centre: extent.middle(S::FRACTION_BITS.is_some()),
-            exponent,
-            diagonal: extent.diagonal(),
-        }
-    }
-
-    /// Returns 2^exponent.
-    pub fn scale(&self) -> f64 {
-        2f64.powi(self.exponent)
-    }
-
-    /// Converts a point of the scene to the format's numbers.
-    pub fn point(&self, p: model::Point) -> [f64; 3] {
-        [0, 1, 2].map(|i| (p[i] - self.centre[i]) * self.scale())
-    }
-
-    /// Converts a length of the scene to the format's number.
-    pub fn length(&self, x: f64) -> f64 {
-        x * self.scale()
-    }
-}
 
 /// A scene in the numbers of one format, owned.
 #[derive(Clone, Debug, Default)]
@@ -129,7 +79,7 @@ pub struct Prepared<S: Quantize> {
     /// The picture.
     pub frame: Frame<S>,
     /// The place of the scene.
-    pub placement: Placement,
+    pub world: World,
 }
 
 /// Converts a scene and its view to format `S`.
@@ -143,14 +93,14 @@ pub fn quantise<S: Quantize>(
     limits::<S>(scene, settings.max_depth)?;
     let rays = settings.rays(scene);
     let extent = Extent::of(scene, &rays);
-    let placement = Placement::of::<S>(&extent);
-    let frame = settings.frame::<S>(&rays, scene, &extent, &placement);
+    let world = extent.world::<S>();
+    let frame = settings.frame::<S>(&rays, scene, &extent, &world);
     let mut quantised = Quantised {
-        slack: up(placement.length((placement.diagonal * S::SLACK).max(extent.rounding()))),
-        diameter: up(placement.length(placement.diagonal) * (1.0 + 4.0 * S::SLACK)),
+        slack: world.slack(),
+        diameter: world.diameter(),
         surfaces: scene.surfaces.iter().map(surface).collect(),
         lights: (scene.lights.iter())
-            .map(|of_scene| light(of_scene, extent.is_far(of_scene), &placement))
+            .map(|of_scene| light(of_scene, extent.is_far(of_scene), &world))
             .collect(),
         background: vector(scene.background),
         sky: checker::sky(scene),
@@ -158,19 +108,20 @@ pub fn quantise<S: Quantize>(
     };
     for (of_surface, surface) in scene.surfaces.iter().zip(&mut quantised.surfaces) {
         if let Some(of_surface) = &of_surface.checker {
-            let place = &placement;
-            quantised.checkers.push(checker::checker(of_surface, place));
+            quantised
+                .checkers
+                .push(checker::checker(of_surface, &world));
             surface.checker = quantised.checkers.len() as u32;
         }
     }
     for (id, object) in scene.objects.iter().enumerate() {
-        quantised.add(scene, id as u32, object, &placement);
+        quantised.add(scene, id as u32, object, &world);
     }
     quantised.gather();
     Ok(Prepared {
         scene: quantised,
         frame,
-        placement,
+        world,
     })
 }
 
@@ -272,14 +223,14 @@ fn surface<S: Quantize>(surface: &model::Surface) -> Surface<S> {
     }
 }
 
-fn light<S: Quantize>(light: &model::Light, is_far: bool, place: &Placement) -> Light<S> {
+fn light<S: Quantize>(light: &model::Light, is_far: bool, world: &World) -> Light<S> {
     let colour = vector(light.colour);
     if !is_far {
-        return Light::new(vector(place.point(light.position)), colour);
+        return Light::new(world.place(light.position), colour);
     }
-    let away = [0, 1, 2].map(|i| light.position[i] / 4.0 - place.centre[i] / 4.0);
+    let away = [0, 1, 2].map(|i| light.position[i] / 4.0 - world.centre[i] / 4.0);
     let quarter = away[0].hypot(away[1]).hypot(away[2]);
-    let distance = place.length(quarter) * 4.0;
+    let distance = world.length(quarter) * 4.0;
     let exponent = match S::FRACTION_BITS {
         Some(_) => -distance.log2().ceil().clamp(0.0, 31.0),
         None => 0.0,
@@ -296,19 +247,4 @@ fn light<S: Quantize>(light: &model::Light, is_far: bool, place: &Placement) -> 
 
 fn vector<S: Quantize>(v: [f64; 3]) -> Vec3<S> {
     v.map(S::from_f64).into()
-}
-
-/// Rounds up to a number of the format.
-fn up<S: Quantize>(x: f64) -> S {
-    let near = S::from_f64(x);
-    if near.to_f64() >= x {
-        return near;
-    }
-    let step = S::FRACTION_BITS.map_or(x.abs() * 2f64.powi(-22), |bits| 2f64.powi(-(bits as i32)));
-    S::from_f64(x + step)
-}
-
-/// Rounds down to a number of the format.
-fn down<S: Quantize>(x: f64) -> S {
-    -up::<S>(-x)
 }

@@ -35,6 +35,9 @@ pub struct Scene {
     pub vertices: Vec<Point>,
     /// Vertex normals of all patches, as written in the file (any length but zero).
     pub normals: Vec<Point>,
+    /// The least and the greatest corner of a box in which objects, lights and the viewpoint are to have room to move.
+    /// What is outside of it can stay there.
+    pub room: Option<[Point; 2]>,
 }
 
 /// A picture of 512 × 512 black pixels, seen from one unit before them.
@@ -54,6 +57,7 @@ impl Default for Scene {
             objects: Vec::new(),
             vertices: Vec::new(),
             normals: Vec::new(),
+            room: None,
         }
     }
 }

@@ -21,6 +21,7 @@
 mod build;
 mod node;
 mod ray;
+mod refit;
 mod room;
 mod walk;
 
@@ -28,6 +29,18 @@ pub use room::{COMPACT_MAX_DEPTH, COMPACT_STACK_SIZE, CompactStack, StackTooSmal
 
 use crate::object::ObjectRef;
 use node::{CHILD, HEADER};
+
+/// Words in which a compact tree of this many objects always finds room, however they move before it is built.
+///
+/// A node has two children or more, each its own node or a leaf of one object or more, except that one object alone
+/// takes a node with one child.
+pub const fn compact_words(objects: usize) -> usize {
+    match objects {
+        0 => 0,
+        1 => HEADER + CHILD,
+        _ => (objects - 1) * HEADER + (2 * objects - 2) * CHILD,
+    }
+}
 
 /// A finished compact tree, walked with a stack of `ROOM` entries, which is never too small: no tree
 /// that needs more can be made.
@@ -68,6 +81,13 @@ pub struct CompactBvh8<'a, const ROOM: usize = COMPACT_STACK_SIZE> {
 }
 
 impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
+    /// The tree of nothing: no object is met.
+    pub const NOTHING: Self = Self {
+        words: &[],
+        links: &[],
+        tick: 1,
+    };
+
     /// A tree from what [`CompactBvh8::words`], [`CompactBvh8::links`] and [`CompactBvh8::tick`] gave, in
     /// constant context, too.
     ///

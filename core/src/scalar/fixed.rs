@@ -63,10 +63,33 @@ impl<const F: u32, C> Fixed<F, C> {
         Self(raw, PhantomData)
     }
 
+    /// The number nearest to `x`, in a constant, too. Beyond the largest numbers it is the largest; NaN gives 0.
+    pub const fn nearest(x: f64) -> Self {
+        let whole = floor(x * (1u64 << F) as f64 + 0.5);
+        // The most negative value has no opposite.
+        Self::from_bits(if whole > i32::MAX as i64 {
+            i32::MAX
+        } else if whole < -(i32::MAX as i64) {
+            -i32::MAX
+        } else {
+            whole as i32
+        })
+    }
+
     /// The bit pattern: the number times 2ᶠ.
     #[inline(always)]
     pub const fn to_bits(self) -> i32 {
         self.0
+    }
+}
+
+/// The largest integer not above `x`, saturated; 0 for NaN. In a constant, too.
+const fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    if whole as f64 > x {
+        whole.saturating_sub(1)
+    } else {
+        whole
     }
 }
 

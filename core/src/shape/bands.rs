@@ -18,6 +18,16 @@ pub struct Bands<S: Scalar> {
 }
 
 impl<S: Scalar> Bands<S> {
+    /// No bands, for a polygon of this extent.
+    pub(super) fn none(low: S, high: S) -> Self {
+        Self {
+            first: 0,
+            count: 0,
+            low,
+            scale: (high - low).reciprocal(),
+        }
+    }
+
     /// The band that holds height `v`; a higher point is never in a lower band.
     #[inline(always)]
     pub fn of(&self, v: S) -> u32 {

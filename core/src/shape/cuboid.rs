@@ -15,6 +15,13 @@ pub struct Cuboid<S> {
     pub high: Vec3<S>,
 }
 
+impl<S> Cuboid<S> {
+    /// The box between its least and its greatest corner.
+    pub const fn new(low: Vec3<S>, high: Vec3<S>) -> Self {
+        Self { low, high }
+    }
+}
+
 /// Where a ray crosses the slabs of a box: distance and axis, going in and coming out.
 struct Crossing<S> {
     entry: (S, Axis),

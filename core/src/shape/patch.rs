@@ -1,7 +1,9 @@
 //! The normals of patches.
 
+use crate::quantize::Quantize;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
+use crate::world::{World, box_of, length, local_exponent, vector};
 
 /// How the normal varies over a patch: interpolated over the triangles that the first vertex
 /// forms with each edge.
@@ -14,6 +16,37 @@ pub struct Patch<S> {
     pub exponent: i8,
     /// The area that counts as nothing, in that scale.
     pub least_area: S,
+}
+
+impl<S: Quantize> Patch<S> {
+    /// The patch of these vertices, in scene units, that a triangle or polygon was made of, with a normal for each
+    /// vertex, of any length: lengths are weights of the interpolation, and only their ratios count. What they are in
+    /// the format is written to `stored`, which has as many elements, and is
+    /// [`Shapes::normals`](super::Shapes::normals) from `first` on.
+    pub fn new(
+        world: &World,
+        vertices: &[[f64; 3]],
+        normals: &[[f64; 3]],
+        first: u32,
+        stored: &mut [Vec3<S>],
+    ) -> Self {
+        let longest = (normals.iter()).fold(0.0, |most: f64, n| most.max(length((*n).into())));
+        for (place, normal) in stored.iter_mut().zip(normals) {
+            *place = vector(normal.map(|x| x * (1.0 / longest)));
+        }
+        let [low, high] = box_of(vertices);
+        let size = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
+        let local = if S::FRACTION_BITS.is_some() {
+            1.0
+        } else {
+            world.length(size)
+        };
+        Self {
+            first_normal: first,
+            exponent: local_exponent::<S>(world.length(size)),
+            least_area: S::from_f64(local * local * 1e-9),
+        }
+    }
 }
 
 impl<S: Scalar> Patch<S> {

@@ -4,8 +4,10 @@ use super::bands::{Bands, Outlines};
 use super::even_odd::{Outline, meets_edge};
 use super::plane::Plane;
 use crate::observe::Observer;
+use crate::quantize::Quantize;
 use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, Tolerance};
+use crate::world::{World, box_of};
 
 /// A polygon of any number of vertices, convex or not.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +23,30 @@ pub struct Polygon<S: Scalar> {
     pub bounds: Aabb<S>,
     /// Which of its edges can matter at a given height.
     pub bands: Bands<S>,
+}
+
+impl<S: Quantize> Polygon<S> {
+    /// The polygon of these vertices, in scene units and in order, three or more. Its projected vertices are written to
+    /// `corners`, which has as many elements, and are [`Outlines::corners`] from `first` on. It has no bands: every test
+    /// looks at all of its edges.
+    ///
+    /// Vertices that are off their plane widen the box. Of vertices in one line it is a polygon that no ray meets.
+    pub fn new(world: &World, vertices: &[[f64; 3]], first: u32, corners: &mut [[S; 2]]) -> Self {
+        let (plane, off_plane) = Plane::through(world, vertices);
+        for (corner, vertex) in corners.iter_mut().zip(vertices) {
+            *corner = plane.corner(world, vertex);
+        }
+        // Rounding tilts the plane by up to one step per unit of length.
+        let bounds = world.bounds(box_of(vertices), 2.0 * off_plane);
+        let (_, v) = plane.axis.others();
+        Self {
+            plane,
+            first,
+            count: vertices.len() as u32,
+            bounds,
+            bands: Bands::none(bounds.low[v], bounds.high[v]),
+        }
+    }
 }
 
 impl<S: Tolerance> Polygon<S> {

@@ -15,6 +15,13 @@ pub struct Sphere<S> {
     pub radius: S,
 }
 
+impl<S> Sphere<S> {
+    /// The sphere of this radius, > 0, around a point.
+    pub const fn new(centre: Vec3<S>, radius: S) -> Self {
+        Self { centre, radius }
+    }
+}
+
 impl<S: Tolerance> Sphere<S> {
     /// Thesis (2.8), with the discriminant taken from the vector between the centre and the ray's
     /// closest approach to it: b² − c cancels far from the sphere (Haines, Günther and

@@ -2,9 +2,11 @@
 
 use super::even_odd::{Outline, crosses, meets_edge};
 use super::plane::Plane;
+use crate::quantize::Quantize;
 use crate::ray::{Aabb, Ray};
 use crate::scalar::{Scalar, Tolerance};
 use crate::vec3::Vec3;
+use crate::world::{World, box_of};
 
 /// A polygon of three vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,6 +18,19 @@ pub struct Triangle<S> {
     pub corners: [[S; 2]; 3],
     /// Its extent along the projection axis, with slack.
     pub depth: [S; 2],
+}
+
+impl<S: Quantize> Triangle<S> {
+    /// The triangle of three points, in scene units. Of points in one line it is one that no ray meets.
+    pub fn new(world: &World, vertices: &[[f64; 3]; 3]) -> Self {
+        let (plane, _) = Plane::through(world, vertices);
+        let bounds = world.bounds::<S>(box_of(vertices), 0.0);
+        Self {
+            plane,
+            corners: vertices.each_ref().map(|v| plane.corner(world, v)),
+            depth: [bounds.low[plane.axis], bounds.high[plane.axis]],
+        }
+    }
 }
 
 impl<S: Tolerance> Triangle<S> {

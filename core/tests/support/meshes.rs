@@ -4,7 +4,7 @@ use fastrand::Rng;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
 use octray_core::vec3::Vec3;
-use octray_prepare::quantise::Placement;
+use octray_core::world::World;
 use octray_scenes::point::{add, times};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -90,7 +90,7 @@ impl Mesh {
     }
 
     /// A ray to a point of an edge, to a corner now and then.
-    pub(crate) fn ray<S: Quantize>(&self, placement: &Placement, rng: &mut Rng) -> Ray<S> {
+    pub(crate) fn ray<S: Quantize>(&self, world: &World, rng: &mut Rng) -> Ray<S> {
         let [a, b] = self.edges[rng.usize(..self.edges.len())];
         let share = match rng.u8(..4) {
             0 => 0.0,
@@ -98,7 +98,7 @@ impl Mesh {
             _ => rng.f64(),
         };
         let to = add(times(a, 1.0 - share), times(b, share));
-        let point = |p: Point| Vec3::from(placement.point(p).map(S::from_f64));
+        let point = |p: Point| world.place::<S>(p);
         let origin = match self.from {
             From::Inside(p) => add(p, times([0.3, 0.1, -0.2], rng.f64() * self.size() * 0.2)),
             From::Above(height) => [to[0], to[1], height],

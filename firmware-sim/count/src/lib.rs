@@ -1,5 +1,5 @@
 //! A plugin for QEMU's translator (plugin interface, version 1). It counts the instructions that a guest executes
-//! between the functions `octray_resume` and `octray_pause`, by kind and by function. Counts are exact, and the same in
+//! between the functions `octray_begin` and `octray_end`, by kind and by function. Counts are exact, and the same in
 //! every run.
 //!
 //! ```text
@@ -11,7 +11,7 @@
 //! | line | meaning |
 //! | --- | --- |
 //! | `instructions N` | all instructions |
-//! | `longest N` | those of the longest period from `octray_resume` to `octray_pause`: the dearest strip of a frame |
+//! | `longest N` | those of the longest period from `octray_begin` to `octray_end`: the dearest strip of a frame |
 //! | `class NAME N`, `kind NAME N` | instructions of each [`octray_instruction::Class`], and of each [`Kind`] |
 //! | `taken N`, `moved N` | taken conditional branches; registers moved by loads and stores of several registers |
 //! | `calls N M NAME` | calls of a watched function, and the instructions from their entries to their returns |
@@ -113,8 +113,8 @@ extern "C" fn translated(_: u64, block: *mut qemu::Block) {
             if i == 0 {
                 seen.start = address;
                 match &*function {
-                    "octray_resume" => mark(instruction, resume),
-                    "octray_pause" => mark(instruction, pause),
+                    "octray_begin" => mark(instruction, resume),
+                    "octray_end" => mark(instruction, pause),
                     _ => {}
                 }
                 with_state(|state| {

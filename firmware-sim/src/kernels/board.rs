@@ -6,8 +6,6 @@
 mod cortex_m;
 mod inputs;
 mod kernels;
-#[path = "../board/marks.rs"]
-mod marks;
 #[path = "../board/print.rs"]
 #[expect(dead_code, reason = "pictures have a hash")]
 mod print;
@@ -22,17 +20,18 @@ use kernels::{Shapes, Stack, Walk};
 use octray_core::accel::Accelerator;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::ray::Ray;
+use octray_embedded::marks;
 use octray_embedded::tally::Tally;
 use semihosting::process::exit;
 
 /// Calls the kernels, reports, exits.
 fn run() -> ! {
-    marks::octray_resume();
+    marks::begin();
     arithmetic();
     let hits = ObjectKind::ALL.map(shape);
     let steps = tree();
     lights();
-    marks::octray_pause();
+    marks::end();
     print::text("arith ");
     print::text(crate::baked::ARITH);
     for (name, hits) in ["sphere", "triangle", "polygon", "cone", "box"]

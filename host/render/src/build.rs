@@ -103,7 +103,7 @@ impl Request<'_> {
         let background = prepared.scene.background;
         let built = Built {
             format: self.format,
-            scale: prepared.placement.exponent,
+            scale: prepared.world.exponent,
             too_fine: S::resolution(self.scene, self.settings)
                 .err()
                 .map(|fine| fine.to_string()),

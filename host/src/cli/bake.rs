@@ -1,6 +1,7 @@
 //! Arguments of `octray bake`.
 
-use super::{ReductionArgs, files, value};
+use super::value::{self, Room};
+use super::{ReductionArgs, files};
 use crate::bake::BakeJob;
 use clap::{Args, value_parser};
 use octray_prepare::choice::Choice;
@@ -39,6 +40,10 @@ pub struct BakeArgs {
     /// Do not divide a node of up to N objects [default: depends on the target]
     #[arg(long, value_name = "N", value_parser = value::positive::<NonZeroU32>)]
     leaf_size: Option<NonZeroU32>,
+    /// Leave room to move: two opposite corners of a box in which objects, lights and the viewpoint may be moved by the
+    /// program [default: none]
+    #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = value::room, allow_hyphen_values = true, verbatim_doc_comment)]
+    room: Option<Room>,
     /// The target's triple, such as thumbv6m-none-eabi. Decides the leaf size, and whether --tree auto builds a tree
     /// [default: a target with a fast multiplier and, for floats, a floating-point unit]
     #[arg(long, alias = "targets", value_name = "TRIPLE", verbatim_doc_comment)]
@@ -75,6 +80,7 @@ impl BakeArgs {
             },
             tree: self.tree,
             target: self.target,
+            room: self.room,
             plan: self.plan,
             output: self.output,
         })

@@ -16,6 +16,25 @@ pub fn target() -> impl TypedValueParser<Value = Target> {
     PathBufValueParser::new().try_map(Target::new)
 }
 
+/// The least and the greatest corner of a box, in scene units.
+pub type Room = [[f64; 3]; 2];
+
+/// Parses two opposite corners of a box.
+pub fn room(text: &str) -> Result<Room, String> {
+    let expected = || "expected six numbers x,y,z,x,y,z: two opposite corners of a box".to_owned();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let [a, b, c, d, e, f] = numbers
+        .ok()
+        .filter(|numbers| numbers.iter().all(|x| x.is_finite()))
+        .and_then(|numbers| <[f64; 6]>::try_from(numbers).ok())
+        .ok_or_else(expected)?;
+    let (from, to) = ([a, b, c], [d, e, f]);
+    Ok([
+        [0, 1, 2].map(|i| from[i].min(to[i])),
+        [0, 1, 2].map(|i| from[i].max(to[i])),
+    ])
+}
+
 /// Parses one of a list of names; help shows the list with the meaning of each name.
 pub fn choice<T: Choice>() -> ChoiceParser<T> {
     ChoiceParser {

@@ -48,22 +48,20 @@ pub struct RayCounts {
 /// [`Error::Scene`] if the scene has mistakes.
 pub fn rays(variant: OctreeVariant) -> Result<Vec<RayCounts>, Error> {
     let Prepared {
-        mut scene,
-        placement,
-        ..
+        mut scene, world, ..
     } = quantise::<f32>(&PLANE.scene()?, &RenderSettings::DEFAULT).map_err(PrepareError::from)?;
     let growth = Growth {
         options: OPTIONS,
         arena: None,
     };
     let (tree, _) = OwnedOctree::build(&mut scene, &growth, variant, LinkBy::Shape);
-    let height = placement.point([0.0, 0.0, HEIGHT])[2] as f32;
+    let height = world.point([0.0, 0.0, HEIGHT])[2] as f32;
     let nodes = (tree.tree().nodes.iter())
         .filter(|node| node.bounds().low.z <= height && height < node.bounds().high.z)
         .count() as u64;
     let scene = scene.scene();
     let counts = RAYS.map(|(name, [from, to])| {
-        let [from, to] = [from, to].map(|[x, y]| placement.point([x, y, HEIGHT]));
+        let [from, to] = [from, to].map(|[x, y]| world.point([x, y, HEIGHT]));
         let [from, to] = [from, to].map(|[x, y, z]| vec3(x as f32, y as f32, z as f32));
         let ray = Ray::new(from, (to - from).unit().0);
         let walked = [Walk::Ordered, Walk::Neighbour, Walk::Links].map(|walk| {

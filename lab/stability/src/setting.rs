@@ -27,6 +27,7 @@ impl Setting {
             height: 1,
             background: [0.0; 3],
             zenith: None,
+            room: None,
             lights: vec![Light {
                 position: eye,
                 colour: [1.0; 3],

@@ -13,6 +13,7 @@ use octray_core::ray::Aabb;
 use octray_core::scene::{Attributes, Light, Parallax, Surface};
 use octray_core::shape::{Bands, Cone, Cuboid, Patch, Plane, Polygon, Sphere, Triangle};
 use octray_core::vec3::{Axis, Vec3};
+use octray_core::world::World;
 use std::fmt::{self, Display, Formatter};
 
 /// The contents of the source.
@@ -126,7 +127,7 @@ impl<S: Literal> Display for Tables<'_, S> {
             &scene.checkers,
             checker,
         )?;
-        array(f, "LIGHTS_", "scene::Light<S>", &scene.lights, light)?;
+        array(f, "LAMPS", "scene::Light<S>", &scene.lights, light)?;
         array(f, "LINKS", "object::ObjectRef", self.baked_links(), link)?;
         array(f, "WORDS", "u32", self.tree.words(), |w| {
             format!("{w:#010x}")
@@ -140,7 +141,7 @@ impl<S: Literal> Display for Tables<'_, S> {
              outlines: shape::Outlines {{ corners: &CORNERS, bands: &BANDS, edges: &EDGES }},\n        \
              patches: &PATCHES,\n        normals: &NORMALS,\n        slack: {},\n    }},\n    \
              attributes: &ATTRIBUTES,\n    first: {:?},\n    surfaces: &SURFACES,\n    \
-             lights: &LIGHTS_,\n    background: {},\n    \
+             lights: &LAMPS,\n    background: {},\n    \
              sky: scene::Sky {{ rise: {}, up: {} }},\n    checkers: &CHECKERS,\n    diameter: {},\n}};",
             number(scene.slack),
             seen.first,
@@ -159,7 +160,13 @@ impl<S: Literal> Display for Tables<'_, S> {
             Tree::Device(..) => String::new(),
         };
         if !tree.is_empty() {
-            writeln!(f, "\n/// Its tree.\npub static TREE: Tree = {tree};")?;
+            writeln!(
+                f,
+                "\n/// Its tree.\npub static TREE: Tree = {tree};\n\n\
+                 /// What is traced, and how far.\n\
+                 pub static TRACER: trace::Tracer<'static, S, Tree, FEATURES> = trace::Tracer {{\n    \
+                 scene: &SCENE,\n    accelerator: &TREE,\n    max_depth: MAX_DEPTH,\n    cut_off: CUT_OFF,\n}};"
+            )?;
         }
         writeln!(
             f,
@@ -171,6 +178,14 @@ impl<S: Literal> Display for Tables<'_, S> {
 }
 
 impl<S: Literal> Tables<'_, S> {
+    /// Returns the objects in the order of the scene file.
+    fn by_id(&self) -> String {
+        let scene = self.prepared.scene.scene();
+        let mut objects: Vec<_> = scene.shapes.refs().collect();
+        objects.sort_by_key(|object| scene.attributes_of(*object).id);
+        objects.iter().map(link).collect::<Vec<_>>().join(", ")
+    }
+
     fn head(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let BakeOptions { name, settings, .. } = self.options;
         let title = octray_scenes::name::line(name);
@@ -198,10 +213,23 @@ impl<S: Literal> Tables<'_, S> {
             [] => "0".into(),
             some => some.join(" | "),
         };
+        let World {
+            centre,
+            exponent,
+            diagonal,
+            rounding,
+        } = self.prepared.world;
+        let scale = self.prepared.world.scale();
+        let nearest = S::NEAREST;
+        let trace = match self.tree {
+            Tree::Device(..) => "",
+            _ => "trace, ",
+        };
+        let by_id = self.by_id();
         writeln!(
             f,
             "// {title}, baked by octray in {} at {} x {}.\n\
-             use octray_core::{{accel, camera, checker, features, frame, object, scalar, scene, shape, vec3}};\n\n\
+             use octray_core::{{accel, camera, checker, features, frame, object, scalar, scene, shape, {trace}vec3, world}};\n\n\
              /// The arithmetic.\npub type S = {};\n/// The kind of tree.\npub type Tree = {tree};\n\
              /// The features that the scene uses.\npub const FEATURES: features::FeatureSet = {needed};\n\
              /// The scene's name.\npub const NAME: &str = {name:?};\n\
@@ -212,10 +240,25 @@ impl<S: Literal> Tables<'_, S> {
              /// The maximum number of queued rays.\npub const RAYS: usize = {};\n\
              /// The number of lights.\npub const LIGHTS: usize = {};\n\
              /// The number of objects.\npub const OBJECTS: usize = {};\n\
-             {device}\n\
+             {device}\
+             /// The place of the scene in the numbers of the arithmetic.\n\
+             pub const WORLD: world::World = world::World {{\n    \
+             centre: {centre:?},\n    exponent: {exponent},\n    diagonal: {diagonal:?},\n    \
+             rounding: {rounding:?},\n}};\n\
+             /// The objects by their place in the scene file, counted from 0.\n\
+             pub const BY_ID: [object::ObjectRef; OBJECTS] = [{by_id}];\n\n\
              const fn n(raw: {raw}) -> S {{\n    {}\n}}\n\n\
              const fn v(x: {raw}, y: {raw}, z: {raw}) -> vec3::Vec3<S> {{\n    \
-             vec3::vec3(n(x), n(y), n(z))\n}}\n",
+             vec3::vec3(n(x), n(y), n(z))\n}}\n\n\
+             const fn nearest(x: f64) -> S {{\n    {nearest}\n}}\n\n\
+             /// A length of the scene, in its units.\n\
+             pub const fn length(x: f32) -> S {{\n    nearest(x as f64 * {scale:?})\n}}\n\n\
+             /// A point of the scene, in its units.\n\
+             pub const fn place(p: [f32; 3]) -> vec3::Vec3<S> {{\n    \
+             vec3::vec3(\n        \
+             nearest((p[0] as f64 - WORLD.centre[0]) * {scale:?}),\n        \
+             nearest((p[1] as f64 - WORLD.centre[1]) * {scale:?}),\n        \
+             nearest((p[2] as f64 - WORLD.centre[2]) * {scale:?}),\n    )\n}}\n",
             S::NAME,
             params.width,
             params.height,
@@ -250,7 +293,7 @@ fn array_of(
     of: &str,
     things: &mut dyn ExactSizeIterator<Item = String>,
 ) -> fmt::Result {
-    writeln!(f, "static {name}: [{of}; {}] = [", things.len())?;
+    writeln!(f, "pub static {name}: [{of}; {}] = [", things.len())?;
     for thing in things {
         writeln!(f, "    {thing},")?;
     }

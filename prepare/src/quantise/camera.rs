@@ -1,81 +1,78 @@
 //! Converts the parsed camera to the tracer's, and finds the pixels that can show anything.
 
+use super::Extent;
 use super::extent::shape_box;
-use super::{Extent, Placement, vector};
 use crate::samples::Adaptive;
 use crate::settings::RenderSettings;
-use octray_core::camera::{Camera, Projection};
+use octray_core::camera::{Projection, View};
 use octray_core::frame::{Frame, Region};
 use octray_core::quantize::Quantize;
+use octray_core::world::World;
 use octray_scenes::model::{self, Point, Scene};
 use octray_scenes::point::{add, cross, dot, times};
 
-/// The camera in scene units; the picture spans −1 … 1 in both directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rays {
-    origin: Point,
-    forward: Point,
-    right: Point,
-    up: Point,
-    parallel: bool,
+/// Returns a projection as the core has it.
+const fn of_core(projection: model::Projection) -> Projection {
+    match projection {
+        model::Projection::Perspective => Projection::Perspective,
+        model::Projection::Parallel => Projection::Parallel,
+    }
 }
 
 const CORNERS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
-impl Rays {
-    /// Whether the rays are parallel.
-    pub(super) const fn is_parallel(&self) -> bool {
-        self.parallel
-    }
+/// Whether the rays are parallel.
+pub(super) fn is_parallel(view: &View) -> bool {
+    view.projection == Projection::Parallel
+}
 
-    /// Returns the least distance between neighbouring rays of a picture of this many columns and rows: in radians, or
-    /// in scene units if the rays are parallel.
-    pub(super) fn pixel(&self, (width, height): (u32, u32)) -> f64 {
-        let steps = [
-            times(self.right, 2.0 / f64::from(width)),
-            times(self.up, 2.0 / f64::from(height)),
-        ];
-        if self.parallel {
-            return length(steps[0]).min(length(steps[1]));
-        }
-        // The least angle is in a corner.
-        let mut least = f64::INFINITY;
-        for [x, y] in CORNERS {
-            let ray = add(self.forward, add(times(self.right, x), times(self.up, y)));
-            for step in steps {
-                least = least.min(length(cross(step, ray)) / dot(ray, ray));
-            }
-        }
-        least
+/// Returns the least distance between neighbouring rays of a picture of this many columns and rows: in radians, or
+/// in scene units if the rays are parallel.
+pub(super) fn pixel(view: &View, (width, height): (u32, u32)) -> f64 {
+    let steps = [
+        times(view.right, 2.0 / f64::from(width)),
+        times(view.up, 2.0 / f64::from(height)),
+    ];
+    if is_parallel(view) {
+        return length(steps[0]).min(length(steps[1]));
     }
-
-    /// Returns the same camera turned by an angle, anticlockwise as seen from above, about a unit axis through a point.
-    fn turned(self, angle: f64, centre: Point, axis: Point) -> Self {
-        let (sine, cosine) = angle.sin_cos();
-        // Rodrigues' formula.
-        let turn = |v: Point| {
-            let along = times(axis, dot(axis, v) * (1.0 - cosine));
-            add(add(times(v, cosine), times(cross(axis, v), sine)), along)
-        };
-        let away = add(self.origin, times(centre, -1.0));
-        Self {
-            origin: add(centre, turn(away)),
-            forward: turn(self.forward),
-            right: turn(self.right),
-            up: turn(self.up),
-            parallel: self.parallel,
+    // The least angle is in a corner.
+    let mut least = f64::INFINITY;
+    for [x, y] in CORNERS {
+        let ray = add(view.forward, add(times(view.right, x), times(view.up, y)));
+        for step in steps {
+            least = least.min(length(cross(step, ray)) / dot(ray, ray));
         }
     }
+    least
+}
 
-    /// Returns the places where rays can start.
-    pub(super) fn starts(&self) -> Vec<Point> {
-        if !self.parallel {
-            return vec![self.origin];
-        }
-        CORNERS
-            .into_iter()
-            .map(|[x, y]| add(self.origin, add(times(self.right, x), times(self.up, y))))
-            .collect()
+/// Returns the places where rays can start.
+pub(super) fn starts(view: &View) -> Vec<Point> {
+    if !is_parallel(view) {
+        return vec![view.origin];
+    }
+    CORNERS
+        .into_iter()
+        .map(|[x, y]| add(view.origin, add(times(view.right, x), times(view.up, y))))
+        .collect()
+}
+
+/// Returns the same camera turned by an angle, anticlockwise as seen from above, about a unit axis through a point.
+fn turned(view: View, angle: f64, centre: Point, axis: Point) -> View {
+    let (sine, cosine) = angle.sin_cos();
+    // Rodrigues' formula.
+    let turn = |v: Point| {
+        let along = times(axis, dot(axis, v) * (1.0 - cosine));
+        add(add(times(v, cosine), times(cross(axis, v), sine)), along)
+    };
+    let away = add(view.origin, times(centre, -1.0));
+    View {
+        origin: add(centre, turn(away)),
+        forward: turn(view.forward),
+        right: turn(view.right),
+        up: turn(view.up),
+        projection: view.projection,
     }
 }
 
@@ -85,7 +82,7 @@ impl RenderSettings {
         self.size.unwrap_or((scene.width, scene.height))
     }
 
-    pub(super) fn rays(&self, scene: &Scene) -> Rays {
+    pub(super) fn rays(&self, scene: &Scene) -> View {
         let rays = self.still_rays(scene);
         if self.orbit == 0.0 {
             return rays;
@@ -94,11 +91,11 @@ impl RenderSettings {
             model::Camera::Nff { at, up, .. } => (at, up),
             model::Camera::Thesis { .. } => (median(scene), [0.0, 1.0, 0.0]),
         };
-        rays.turned(self.orbit.to_radians(), centre, unit(axis))
+        turned(rays, self.orbit.to_radians(), centre, unit(axis))
     }
 
     /// Returns the camera as it is in the file.
-    fn still_rays(&self, scene: &Scene) -> Rays {
+    fn still_rays(&self, scene: &Scene) -> View {
         let (width, height) = self.size_of(scene);
         let (half_width, half_height) = (f64::from(width) / 2.0, f64::from(height) / 2.0);
         match scene.camera {
@@ -107,18 +104,17 @@ impl RenderSettings {
                 projection,
             } => {
                 let pixel = f64::from(scene.height) / f64::from(height);
-                let parallel = projection == model::Projection::Parallel;
-                let (origin, forward) = if parallel {
+                let (origin, forward) = if projection == model::Projection::Parallel {
                     ([0.0, 0.0, viewpoint[2]], [0.0, 0.0, -viewpoint[2].signum()])
                 } else {
                     (viewpoint, times(viewpoint, -1.0))
                 };
-                Rays {
+                View {
                     origin,
                     forward,
                     right: [half_width * pixel, 0.0, 0.0],
                     up: [0.0, half_height * pixel, 0.0],
-                    parallel,
+                    projection: of_core(projection),
                 }
             }
             model::Camera::Nff {
@@ -127,55 +123,20 @@ impl RenderSettings {
                 up,
                 angle,
                 projection,
-            } => {
-                let look = add(at, times(from, -1.0));
-                let distance = length(look);
-                let forward = times(look, 1.0 / distance);
-                let right = unit(cross(forward, up));
-                let up = cross(right, forward);
-                let rows = f64::from(height.max(2) - 1);
-                let parallel = projection == model::Projection::Parallel;
-                let step = 2.0 * (angle.to_radians() / 2.0).tan() / rows
-                    * if parallel { distance } else { 1.0 };
-                Rays {
-                    origin: from,
-                    forward,
-                    right: times(right, step * half_width),
-                    up: times(up, step * half_height),
-                    parallel,
-                }
-            }
+            } => View::look(from, at, up, angle, (width, height), of_core(projection)),
         }
     }
 
     pub(super) fn frame<S: Quantize>(
         &self,
-        rays: &Rays,
+        rays: &View,
         scene: &Scene,
         extent: &Extent,
-        placement: &Placement,
+        world: &World,
     ) -> Frame<S> {
         let (width, height) = self.size_of(scene);
         let block = self.pixels_per_ray.side();
-        let camera = if rays.parallel {
-            Camera {
-                origin: vector(placement.point(rays.origin)),
-                forward: vector(rays.forward),
-                right: vector(rays.right.map(|c| placement.length(c))),
-                up: vector(rays.up.map(|c| placement.length(c))),
-                projection: Projection::Parallel,
-            }
-        } else {
-            // No component of their sum exceeds [−1, 1].
-            let fit = 1.0 / (length(rays.forward) + length(rays.right) + length(rays.up));
-            Camera {
-                origin: vector(placement.point(rays.origin)),
-                forward: vector(times(rays.forward, fit)),
-                right: vector(times(rays.right, fit)),
-                up: vector(times(rays.up, fit)),
-                projection: Projection::Perspective,
-            }
-        };
+        let camera = rays.camera(world);
         // Directions rounded to a few bits can miss their pixel by several pixels.
         let margin = |pixels: u32| {
             let bits = S::FRACTION_BITS.unwrap_or(20) as i32;
@@ -225,7 +186,7 @@ fn whole(width: u32, height: u32) -> Region {
 /// Returns the rectangle of pixels onto which the objects' box is projected; all pixels if the box extends behind the
 /// eye's plane.
 fn active(
-    rays: &Rays,
+    rays: &View,
     extent: &Extent,
     width: u32,
     height: u32,
@@ -264,7 +225,7 @@ fn active(
         } else {
             before += 1;
         }
-        let depth = if rays.parallel { 1.0 } else { a };
+        let depth = if is_parallel(rays) { 1.0 } else { a };
         let (x, y) = (b / depth, c / depth);
         least = [least[0].min(x), least[1].min(y)];
         most = [most[0].max(x), most[1].max(y)];
@@ -272,7 +233,7 @@ fn active(
     if before == 0 {
         return nothing;
     }
-    if behind > 0 && !rays.parallel {
+    if behind > 0 && !is_parallel(rays) {
         return all;
     }
     let (w, h) = (f64::from(width), f64::from(height));

@@ -1,9 +1,13 @@
 //! The extent of a scene.
 
-use super::camera::Rays;
+use super::camera::starts;
+use octray_core::camera::View;
+use octray_core::quantize::Quantize;
+use octray_core::shape::cone_box;
+use octray_core::world::World;
 use octray_scenes::model::{Light, Point, Scene, Shape};
 
-/// The box around all objects, and the box around everything that takes part in the arithmetic: objects, the places where
+/// The box around all objects and the room in which they can move, and the box around everything that takes part in the arithmetic: objects, the places where
 /// rays start, and lights that are not far away. In scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
@@ -15,7 +19,7 @@ pub struct Extent {
 
 impl Extent {
     /// Returns the extent of a scene and its view.
-    pub(super) fn of(scene: &Scene, rays: &Rays) -> Self {
+    pub(super) fn of(scene: &Scene, rays: &View) -> Self {
         let nothing = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let mut objects = nothing;
         for object in &scene.objects {
@@ -23,8 +27,11 @@ impl Extent {
             include(&mut objects, low);
             include(&mut objects, high);
         }
+        for corner in scene.room.iter().flatten() {
+            include(&mut objects, *corner);
+        }
         let mut everything = objects;
-        for start in rays.starts() {
+        for start in starts(rays) {
             include(&mut everything, start);
         }
         let seen = Self {
@@ -70,11 +77,14 @@ impl Extent {
         x.hypot(y).hypot(z)
     }
 
-    /// Returns how far coordinates in a scene file are off: a few roundings of the largest to `f64`. Far from the
-    /// origin that is more than the error of hits in `f64`.
-    pub(super) fn rounding(&self) -> f64 {
-        let coordinates = self.everything.as_flattened().iter();
-        coordinates.fold(0.0, |reach, c| c.abs().max(reach)) * 2.0 * f64::EPSILON
+    /// Returns the place of everything in the numbers of format `S`. In floating point, the middle of the objects is where
+    /// numbers are finest.
+    pub fn world<S: Quantize>(&self) -> World {
+        let [low, high] = self.everything;
+        World {
+            centre: self.middle(S::FRACTION_BITS.is_some()),
+            ..World::around::<S>(low, high)
+        }
     }
 
     /// Returns the middle of the objects; that of everything if asked for or if there are no objects.
@@ -113,17 +123,7 @@ pub(super) fn shape_box(scene: &Scene, shape: &Shape) -> [Point; 2] {
             base_radius,
             top,
             top_radius,
-        } => {
-            // A circle of radius r perpendicular to the axis a extends r √(1 − aᵢ²) along axis i.
-            let axis = [0, 1, 2].map(|i| top[i] - base[i]);
-            let square: f64 = axis.iter().map(|a| a * a).sum();
-            let reach = axis.map(|a| (1.0 - a * a / square).max(0.0).sqrt());
-            let low =
-                |i: usize| (base[i] - base_radius * reach[i]).min(top[i] - top_radius * reach[i]);
-            let high =
-                |i: usize| (base[i] + base_radius * reach[i]).max(top[i] + top_radius * reach[i]);
-            [[0, 1, 2].map(low), [0, 1, 2].map(high)]
-        }
+        } => cone_box(base, base_radius, top, top_radius),
         Shape::Polygon { first, count } | Shape::Patch { first, count, .. } => {
             let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
             for vertex in &scene.vertices[first as usize..][..count as usize] {

@@ -4,8 +4,7 @@
 mod gaps;
 mod large;
 
-use super::Placement;
-use super::camera::length;
+use super::camera::{is_parallel, length, pixel as pixel_of, starts};
 use super::extent::{Extent, shape_box};
 use crate::limits::passed_on;
 use crate::settings::RenderSettings;
@@ -81,17 +80,19 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
     let rays = settings.rays(scene);
     let extent = Extent::of(scene, &rays);
     let diagonal = extent.diagonal();
-    let (pixel, whole) = match rays.is_parallel() {
-        true => (rays.pixel(settings.size_of(scene)) / diagonal, "the scene"),
-        false => (rays.pixel(settings.size_of(scene)), "a radian"),
+    let (pixel, whole) = match is_parallel(&rays) {
+        true => (
+            pixel_of(&rays, settings.size_of(scene)) / diagonal,
+            "the scene",
+        ),
+        false => (pixel_of(&rays, settings.size_of(scene)), "a radian"),
     };
     let tips = !S::EXACT_ROOTS && scene.objects.iter().any(|object| has_tip(&object.shape));
     let least = if tips { TIP * grain } else { grain };
     check(pixel, least, &|| format!("a pixel's share of {whole}"))?;
-    let placement = Placement::of::<S>(&extent);
-    let from_middle = |p: Point| length(add(p, times(placement.centre, -1.0)));
-    let eye = rays
-        .starts()
+    let world = extent.world::<S>();
+    let from_middle = |p: Point| length(add(p, times(world.centre, -1.0)));
+    let eye = starts(&rays)
         .into_iter()
         .map(from_middle)
         .fold(0.0, f64::max);
@@ -103,7 +104,7 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
             None => {
                 let [low, high] = shape_box(scene, &object.shape);
                 let farthest = [0, 1, 2].map(|i| {
-                    let centre = placement.centre[i];
+                    let centre = world.centre[i];
                     (low[i] - centre).abs().max((high[i] - centre).abs())
                 });
                 length(farthest).max(eye).min(diagonal)
@@ -119,16 +120,16 @@ pub fn resolution<S: Quantize>(scene: &Scene, settings: &RenderSettings) -> Resu
                 None => name("the size of"),
             }
         })?;
-        for eye in rays.starts() {
+        for eye in starts(&rays) {
             if let Some(away) = distance(&object.shape, eye) {
                 check(away / reach, grain, &|| name("the eye's distance from"))?;
             }
         }
     }
     // A ray has to start between the surfaces, and to tell them apart.
-    let off = S::surface_error(S::from_f64(placement.length(diagonal / 4.0)), S::ZERO);
-    let least = off.to_f64() / placement.scale() + S::SLACK / 8.0 * diagonal;
-    if let Some(gap) = gaps::narrow_gap(scene, least, extent.rounding()) {
+    let off = S::surface_error(S::from_f64(world.length(diagonal / 4.0)), S::ZERO);
+    let least = off.to_f64() / world.scale() + S::SLACK / 8.0 * diagonal;
+    if let Some(gap) = gaps::narrow_gap(scene, least, world.rounding) {
         check(gap.width / diagonal, least / diagonal, &|| {
             let [a, b] = gap.objects.map(|i| i + 1);
             format!("the gap between objects {a} and {b} as a share of the scene")

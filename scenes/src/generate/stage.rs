@@ -108,6 +108,7 @@ impl Stage {
             height: 512,
             background: [0.35, 0.52, 0.72],
             zenith: None,
+            room: None,
             lights: vec![
                 light([0.8, -0.3, 1.0], 0.7),
                 light([-0.7, -0.8, 0.9], 0.35),

@@ -40,15 +40,7 @@ impl<'a> CompactBvh8<'a> {
         let boxes = boxes.get_mut(..count).ok_or(too_small)?;
         for ((link, bounds), object) in links.iter_mut().zip(&mut *boxes).zip(shapes.refs()) {
             *link = object;
-            let shape = shapes.bounds(object);
-            *bounds = Aabb {
-                low: shape
-                    .low
-                    .map(|x| x.to_grid().saturating_sub(S::Bound::GRID_SLACK)),
-                high: shape
-                    .high
-                    .map(|x| x.to_grid().saturating_add(S::Bound::GRID_SLACK)),
-            };
+            *bounds = grid_box(shapes, object);
         }
         let mut stats = BuildStats {
             links: count as u32,
@@ -163,8 +155,21 @@ impl Builder<'_> {
     }
 }
 
+/// The box of an object on the grid.
+pub(super) fn grid_box<S: AccelScalar, const FEATURES: FeatureSet>(
+    shapes: &Shapes<'_, S, FEATURES>,
+    object: ObjectRef,
+) -> Aabb<i32> {
+    let shape = shapes.bounds(object);
+    let slack = S::Bound::GRID_SLACK;
+    Aabb {
+        low: shape.low.map(|x| x.to_grid().saturating_sub(slack)),
+        high: shape.high.map(|x| x.to_grid().saturating_add(slack)),
+    }
+}
+
 /// A box on the grid in ticks, rounded outward.
-fn ticks_of(bounds: &Aabb<i32>, tick: u32) -> Aabb<i32> {
+pub(super) fn ticks_of(bounds: &Aabb<i32>, tick: u32) -> Aabb<i32> {
     let up = |x: i32| ((i64::from(x) + (1 << tick) - 1) >> tick) as i32;
     Aabb {
         low: bounds.low.map(|x| x >> tick),

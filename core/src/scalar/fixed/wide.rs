@@ -22,6 +22,13 @@ impl<C> Fixed64<C> {
         Self(raw, PhantomData)
     }
 
+    /// The number nearest to `x`, in a constant, too. Beyond the largest numbers it is the largest; NaN gives 0.
+    pub const fn nearest(x: f64) -> Self {
+        let raw = super::floor(x * (1u64 << F) as f64 + 0.5);
+        // The most negative value has no opposite.
+        Self::from_bits(if raw == i64::MIN { -i64::MAX } else { raw })
+    }
+
     /// The bit pattern: the number times 2³².
     #[inline(always)]
     pub const fn to_bits(self) -> i64 {

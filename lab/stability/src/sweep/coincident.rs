@@ -93,7 +93,7 @@ impl Sweep for Coincident {
             let aside = random::times(random.across(normal), random.between(0.0, 0.6));
             let towards = random::add(random::times(normal, -2.0), aside);
             let direction = number::direction::<S>(towards);
-            let ray = number::ray(prepared.placement.point(eye), direction);
+            let ray = number::ray(prepared.world.point(eye), direction);
             let found = [
                 counted(|| shipped(&prepared, &ray)),
                 counted(|| last(&prepared, &ray)),

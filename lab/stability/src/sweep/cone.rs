@@ -191,10 +191,10 @@ fn sweep<S: Number>(seed: u64, case: impl Fn(&mut Random) -> Case) -> Vec<ErrorS
         let direction = number::direction::<S>(towards);
         let aimed = random::add(middle, random::times(aside, aim * radius));
         let size = dot64(towards, towards).sqrt() * case.distance;
-        let back = random::times(floats(direction), -prepared.placement.length(size));
-        let origin = random::add(prepared.placement.point(aimed), back);
+        let back = random::times(floats(direction), -prepared.world.length(size));
+        let origin = random::add(prepared.world.point(aimed), back);
         let ray = number::ray(origin, direction);
-        let local = exact(prepared.placement.length(radius));
+        let local = exact(prepared.world.length(radius));
         compare(&prepared, &cone, &ray, &local, &mut all_errors);
     }
     all_errors
@@ -207,7 +207,7 @@ fn compare<S: Number>(
     radius: &Exact,
     all_errors: &mut [ErrorStats],
 ) {
-    let place = &prepared.placement;
+    let place = &prepared.world;
     let scale = exact(place.scale());
     let point = |p| times(&sub(&exact3(p), &exact3(place.centre)), &scale);
     let solid = Solid {

@@ -187,7 +187,7 @@ fn shipped<S: Number>(
 ) -> Option<[bool; 2]> {
     let shapes = prepared.scene.shapes();
     let [from, next] = [0, 1].map(|i| ObjectRef::new(kind, i));
-    let ray = number::ray(prepared.placement.point(eye), towards);
+    let ray = number::ray(prepared.world.point(eye), towards);
     let t = shapes.hit(from, &ray, prepared.scene.diameter, &mut ())?;
     let hit = Hit { t, object: from };
     let seen = mock_accelerator::leaving(shapes, mock_accelerator::mirror(), &ray, hit);

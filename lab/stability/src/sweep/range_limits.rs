@@ -60,7 +60,7 @@ impl Sweep for RangeLimits {
             Some(_) => libm::floor(libm::log2(S::MAX.to_f64() / (value / 2.0))),
             None => 0.0,
         };
-        let scales = [prepared.placement.scale(), libm::exp2(exponent)];
+        let scales = [prepared.world.scale(), libm::exp2(exponent)];
         for (scale, errors) in scales.into_iter().zip(&mut all_errors) {
             measure::<S>(value * scale, errors);
         }

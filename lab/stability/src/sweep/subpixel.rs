@@ -64,7 +64,7 @@ impl Sweep for SubPixel {
             };
             // As the camera computes it: a vector of about ½, normalised.
             let ray = number::ray(
-                prepared.placement.point(eye),
+                prepared.world.point(eye),
                 vector::<S>(random::times(aim, 0.5 / length)).unit().0,
             );
             let truth = share < 1.0;

@@ -153,9 +153,9 @@ fn rays<S: Number>(prepared: &Prepared<S>, value: f64) -> Vec<Ray<S>> {
         let towards = random::add(along, random::times(random.direction(), 0.5 * slope));
         let direction = number::direction::<S>(towards);
         let target = prepared
-            .placement
+            .world
             .point(random::add(corner.map(f64::from), off));
-        let length = prepared.placement.length(2.0 * f64::from(HALF));
+        let length = prepared.world.length(2.0 * f64::from(HALF));
         number::ray(
             random::add(target, random::times(floats(direction), -length)),
             direction,
@@ -198,7 +198,7 @@ impl<S: Number> Grid<S> {
     const ROW: i32 = 2 * HALF;
 
     fn new(prepared: &Prepared<S>) -> Self {
-        let side = prepared.placement.length(1.0);
+        let side = prepared.world.length(1.0);
         let mut cells = vec![Vec::new(); Self::ROW.pow(3) as usize];
         for (sphere, id) in prepared.scene.spheres.iter().zip(0..) {
             let of = |x: f64| ((x / side).floor() as i32 + HALF).clamp(0, Self::ROW - 1);

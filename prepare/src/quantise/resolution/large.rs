@@ -1,14 +1,15 @@
 //! What makes a scene large.
 
-use super::super::camera::Rays;
+use super::super::camera::starts;
 use super::super::extent::{Extent, shape_box};
+use octray_core::camera::View;
 use octray_scenes::model::{Point, Scene};
 
 /// Returns the name of the one object, light or viewpoint without which the scene would have less than half its size, if
 /// there is one besides `object`, an index.
 pub(super) fn culprit(
     scene: &Scene,
-    rays: &Rays,
+    rays: &View,
     extent: &Extent,
     object: usize,
 ) -> Option<String> {
@@ -19,8 +20,7 @@ pub(super) fn culprit(
     let lights = (scene.lights.iter().enumerate()).filter(|(_, light)| !extent.is_far(light));
     let lights =
         lights.map(|(i, light)| (Part::Light, format!("light {}", i + 1), [light.position; 2]));
-    let starts = rays
-        .starts()
+    let starts = starts(rays)
         .into_iter()
         .map(|p| (Part::Start, "the viewpoint".into(), [p; 2]));
     let parts: Vec<(Part, String, [Point; 2])> = objects.chain(lights).chain(starts).collect();

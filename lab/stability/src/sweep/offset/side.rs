@@ -156,7 +156,7 @@ pub(super) fn measure<S: Number>((body, inner): Side, size: f64) -> ErrorStats {
         let Some(prepared) = body.setting(size, axis, eye).prepare::<S>() else {
             return errors;
         };
-        let eye = prepared.placement.point(times(eye, size));
+        let eye = prepared.world.point(times(eye, size));
         let ray = number::ray(eye, towards);
         let ahead = if solid && inner {
             Ahead::To(body.within(axis, &mut random))
@@ -200,10 +200,7 @@ fn meets<S: Number>(
     let from = number::floats(leaving.origin);
     let limit = match ahead {
         Ahead::To(aim) => {
-            let way = add(
-                prepared.placement.point(times(aim, size)),
-                times(from, -1.0),
-            );
+            let way = add(prepared.world.point(times(aim, size)), times(from, -1.0));
             leaving.direction = number::vector::<S>(way).unit().0;
             S::from_f64(dot(way, way).sqrt())
         }
