@@ -36,7 +36,9 @@ impl fmt::Display for Mistake {
 }
 
 /// The mistakes in one scene, in the order of the calls. As an error it is never empty; displayed, each is a line.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// [`Debug`](fmt::Debug) shows the same lines: a `main` that returns this error prints it that way.
+#[derive(Clone, PartialEq)]
 pub struct Mistakes {
     /// Up to [`MOST`] of them.
     pub list: Vec<Mistake>,
@@ -51,6 +53,12 @@ impl fmt::Display for Mistakes {
             true => write!(f, "\n{}", words::only_the_first()),
             false => Ok(()),
         }
+    }
+}
+
+impl fmt::Debug for Mistakes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 
