@@ -19,7 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! With [`scenes::read`](octray_scenes::read)`("ball.scene")?` in place of `scene.build()?` the scene comes from a file.
+//! With [`scenes::read`]`("ball.scene")?` in place of `scene.build()?` the scene comes from a file.
 //!
 //! The modules, in the order of the data:
 //!
