@@ -19,6 +19,9 @@
 //! any number. The same scene in the same format gives the same bytes on every target. Unsafe code is
 //! denied but in one module of two square root instructions (`scalar::root`).
 //!
+//! The feature `fixed`, off by default, converts [`Fixed`](scalar::Fixed) and [`Fixed64`](scalar::Fixed64) from and to the
+//! numbers of the crate `fixed`.
+//!
 //! A sphere in 16.16 fixed point:
 //!
 //! ```
@@ -90,3 +93,8 @@ pub mod shape;
 pub mod trace;
 pub mod vec3;
 pub mod world;
+
+/// The examples of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -5,6 +5,7 @@
 //! | module | does |
 //! | --- | --- |
 //! | [`settings`] | the settings of a rendering, with their defaults: [`RenderSettings`] |
+//! | [`range`] | whether they are in their ranges |
 //! | [`mod@format`], [`dispatch`] | the list of number formats, and the conversion of a name into a type |
 //! | [`limits`] | bounds of values that cannot be scaled, so that nothing overflows |
 //! | [`mod@quantise`] | places and scales a scene in the numbers of one format |
@@ -27,6 +28,7 @@ pub mod literal;
 pub mod plan;
 pub mod prepare;
 pub mod quantise;
+pub mod range;
 pub mod samples;
 pub mod saturation;
 pub mod settings;

@@ -1,6 +1,6 @@
 //! Checks of the invariants of [`crate::model`]: what makes a scene renderable.
 
-use crate::model::{Camera, Checker, Light, Object, Point, Scene, Shape, Surface};
+use crate::model::{Camera, Checker, Colour, Light, Object, Point, Scene, Shape, Surface};
 use crate::point;
 use std::fmt;
 use thiserror::Error;
@@ -144,8 +144,7 @@ pub fn scene(scene: &Scene) -> Result<(), Broken> {
     for size in [scene.width, scene.height] {
         resolution(f64::from(size)).map_err(at(Place::Resolution))?;
     }
-    coefficients(&scene.background).map_err(at(Place::Background))?;
-    coefficients(&scene.zenith.unwrap_or_default()).map_err(at(Place::Background))?;
+    background(&scene.background, scene.zenith.as_ref()).map_err(at(Place::Background))?;
     for (index, value) in scene.lights.iter().enumerate() {
         light(value).map_err(at(Place::Light(index)))?;
     }
@@ -196,6 +195,12 @@ pub(crate) fn resolution(size: f64) -> Result<(), Fault> {
     )
 }
 
+/// Checks the background, and the zenith if the sky is not of one colour.
+pub(crate) fn background(background: &Colour, zenith: Option<&Colour>) -> Result<(), Fault> {
+    coefficients(background)?;
+    zenith.map_or(Ok(()), |zenith| coefficients(zenith))
+}
+
 pub(crate) fn light(light: &Light) -> Result<(), Fault> {
     finite(&light.position)?;
     coefficients(&light.colour)
@@ -238,18 +243,18 @@ pub(crate) fn checker(checker: &Checker) -> Result<(), Fault> {
     ensure(*size > 0.0, Fault::CheckerSize)
 }
 
-pub(crate) fn coefficients(numbers: &[f64]) -> Result<(), Fault> {
+fn coefficients(numbers: &[f64]) -> Result<(), Fault> {
     finite(numbers)?;
     ensure(numbers.iter().all(|&number| number >= 0.0), Fault::Negative)
 }
 
-pub(crate) fn sphere(centre: &Point, radius: f64) -> Result<(), Fault> {
+fn sphere(centre: &Point, radius: f64) -> Result<(), Fault> {
     finite(centre)?;
     radii(&[radius])?;
     ensure(radius != 0.0, Fault::ZeroRadius)
 }
 
-pub(crate) fn cone(base: &Point, top: &Point, radii_of_both: [f64; 2]) -> Result<(), Fault> {
+fn cone(base: &Point, top: &Point, radii_of_both: [f64; 2]) -> Result<(), Fault> {
     finite(base)?;
     finite(top)?;
     radii(&radii_of_both)?;
@@ -257,7 +262,7 @@ pub(crate) fn cone(base: &Point, top: &Point, radii_of_both: [f64; 2]) -> Result
     ensure(base != top, Fault::BaseIsTop)
 }
 
-pub(crate) fn cuboid(centre: &Point, size: &Point) -> Result<(), Fault> {
+fn cuboid(centre: &Point, size: &Point) -> Result<(), Fault> {
     finite(centre)?;
     finite(size)?;
     match size.iter().position(|&side| side <= 0.0) {
@@ -267,46 +272,44 @@ pub(crate) fn cuboid(centre: &Point, size: &Point) -> Result<(), Fault> {
 }
 
 /// Returns what is odd about a polygon that can be rendered, if anything.
-pub(crate) fn polygon(vertices: &[Point]) -> Result<Option<Oddity>, Fault> {
+fn polygon(vertices: &[Point]) -> Result<Option<Oddity>, Fault> {
     ensure(vertices.len() >= 3, Fault::TooFewVertices)?;
-    vertices.iter().try_for_each(|vertex| finite(vertex))?;
+    finite(vertices.as_flattened())?;
     plane::polygon(vertices)
 }
 
-pub(crate) fn normals(normals: &[Point]) -> Result<(), Fault> {
-    normals.iter().try_for_each(|normal| finite(normal))?;
-    match normals.iter().position(|normal| *normal == [0.0; 3]) {
-        Some(vertex) => Err(Fault::ZeroNormal { vertex }),
-        None => Ok(()),
-    }
-}
-
-fn object(scene: &Scene, object: &Object) -> Result<(), Fault> {
+/// Checks an object against the lists of its scene. Returns what is odd about it, if anything.
+pub(crate) fn object(scene: &Scene, object: &Object) -> Result<Option<Oddity>, Fault> {
     ensure(
         (object.surface as usize) < scene.surfaces.len(),
         Fault::SurfaceIndex,
     )?;
     match &object.shape {
-        Shape::Sphere { centre, radius } => sphere(centre, *radius),
+        Shape::Sphere { centre, radius } => sphere(centre, *radius)?,
         Shape::Cone {
             base,
             base_radius,
             top,
             top_radius,
-        } => cone(base, top, [*base_radius, *top_radius]),
-        Shape::Cuboid { centre, size } => cuboid(centre, size),
+        } => cone(base, top, [*base_radius, *top_radius])?,
+        Shape::Cuboid { centre, size } => cuboid(centre, size)?,
         Shape::Polygon { first, count } => {
-            polygon(range(&scene.vertices, *first, *count)?).map(drop)
+            return polygon(range(&scene.vertices, *first, *count)?);
         }
         Shape::Patch {
             first,
             count,
             first_normal,
         } => {
-            polygon(range(&scene.vertices, *first, *count)?)?;
-            normals(range(&scene.normals, *first_normal, *count)?)
+            let normals = range(&scene.normals, *first_normal, *count)?;
+            // Also of a patch without area, which is left out.
+            finite(normals.as_flattened())?;
+            let oddity = polygon(range(&scene.vertices, *first, *count)?)?;
+            let zero = normals.iter().position(|normal| *normal == [0.0; 3]);
+            return zero.map_or(Ok(oddity), |vertex| Err(Fault::ZeroNormal { vertex }));
         }
     }
+    Ok(None)
 }
 
 fn range(points: &[Point], first: u32, count: u32) -> Result<&[Point], Fault> {

@@ -2,7 +2,7 @@
 
 mod draw;
 mod warning;
-mod words;
+pub(crate) mod words;
 
 pub use warning::{MOST_WARNINGS, Warning, WarningKind, Warnings};
 

@@ -1,13 +1,14 @@
-//! Scene files of octray as text: reading, checking, writing, generating.
+//! Scenes of octray: read from files, made in code, checked, written, generated.
 //!
 //! The modules, in the order of the data:
 //!
 //! | module | does |
 //! | --- | --- |
 //! | [`mod@parse`] | reads a scene file of either dialect: text to [`model::Scene`] |
+//! | [`builder`] | makes a scene in code, with the same checks: calls to [`model::Scene`] |
 //! | [`diagnostic`] | describes what is wrong with a file, where, and what was expected |
-//! | [`check`] | checks the invariants of a scene, for the parser and for scenes made otherwise |
-//! | [`model`] | the parsed scene: `f64`, scene units, nothing derived |
+//! | [`check`] | checks the invariants of a scene, for the parser, the builder and scenes made otherwise |
+//! | [`model`] | the scene: `f64`, scene units, nothing derived |
 //! | [`reduce`] | leaves out lights, mirrors and glass |
 //! | [`mod@generate`] | generates scenes of any size from a seed |
 //! | [`input`] | reads whole files, pipes and standard input, up to a bound |
@@ -24,6 +25,8 @@
 //! # Ok::<(), octray_scenes::diagnostic::Diagnostics>(())
 //! ```
 
+mod add;
+pub mod builder;
 pub mod check;
 pub mod diagnostic;
 pub mod generate;
@@ -33,9 +36,11 @@ pub mod name;
 pub mod parse;
 pub mod point;
 pub mod reduce;
+mod surface;
 mod word;
 pub mod write;
 
+pub use builder::SceneBuilder;
 pub use generate::generate;
 pub use parse::{
     ReadError, object_lines, parse, parse_with_warnings, read, read_with_lines, read_with_warnings,

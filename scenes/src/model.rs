@@ -1,8 +1,8 @@
-//! The parsed scene: the contents of a scene file, in `f64` and in scene units, nothing derived.
+//! The scene: the contents of a scene file, in `f64` and in scene units, nothing derived.
 //!
-//! The parser has checked these invariants: every number is finite, every shape has an extent, every surface index is
-//! in range. Code that builds a [`Scene`] by other means must satisfy them too, or call [`crate::check::scene`] on the
-//! result.
+//! The parser and the [builder](crate::builder) have checked these invariants: every number is finite, every shape has
+//! an extent, every surface index is in range. Code that makes a [`Scene`] by other means must satisfy them too, or call
+//! [`crate::check::scene`] on the result.
 
 /// A point or a direction in scene units.
 pub type Point = [f64; 3];

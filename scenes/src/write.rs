@@ -167,7 +167,7 @@ fn points(list: &[Point], first: u32, count: u32) -> &[Point] {
 }
 
 /// Displays the fewest digits that parse to the same `f64`, with an exponent if that is shorter.
-struct Number(f64);
+pub(crate) struct Number(pub(crate) f64);
 
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

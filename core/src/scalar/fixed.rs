@@ -2,6 +2,8 @@
 //!
 //! Names carry the scaling: `x_q31` is an integer that stands for x · 2³¹.
 
+#[cfg(feature = "fixed")]
+mod interop;
 mod power;
 mod reciprocal;
 mod root;
@@ -52,6 +54,25 @@ use root::rsqrt_q30;
 /// let large = Fixed::<16, Counted>::from_f64(30_000.0);
 /// assert_eq!((large + large).to_bits(), i32::MAX);
 /// assert_eq!(COUNT.load(Ordering::Relaxed), 1);
+/// ```
+///
+/// With the feature `fixed` numbers are converted from and to those of [the crate of that name](https://docs.rs/fixed):
+///
+/// ```
+/// # #[cfg(feature = "fixed")] {
+/// use fixed::types::{I16F16, I20F12, I32F32, U8F8};
+/// use octray_core::scalar::Fixed;
+///
+/// // What loses nothing is `From`.
+/// let x: Fixed<16> = I16F16::from_num(1.5).into();
+/// assert_eq!(I16F16::from(x), 1.5);
+/// assert_eq!(I32F32::from(x), 1.5);
+/// // All else goes to the nearest, halves up, and saturates.
+/// assert_eq!(x.to_fixed_rounded::<U8F8>(), 1.5);
+/// assert_eq!((-x).to_fixed_rounded::<U8F8>(), 0);
+/// let third = Fixed::<16>::from_fixed_rounded(I20F12::from_num(1) / 3);
+/// assert_eq!(third.to_bits(), 1365 * 16);
+/// # }
 /// ```
 #[repr(transparent)]
 pub struct Fixed<const F: u32, C = ()>(i32, PhantomData<fn() -> C>);

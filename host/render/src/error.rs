@@ -1,11 +1,14 @@
 //! What can go wrong.
 
 use octray_scenes::name::Shown;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// A failure, with everything its message needs.
-#[derive(Debug, thiserror::Error)]
+///
+/// [`Debug`](fmt::Debug) shows the message too: a `main` that returns this error prints it that way.
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// What is asked for contradicts itself or what it names: the caller is at fault.
@@ -53,10 +56,37 @@ pub enum Error {
     Interrupted,
 }
 
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 /// A scene that could not be made ready: it failed.
 impl From<crate::renderer::PrepareError> for Error {
     fn from(error: crate::renderer::PrepareError) -> Self {
         Self::Failed(error.to_string())
+    }
+}
+
+/// Settings that no picture can have.
+impl From<octray_prepare::range::OutOfRange> for Error {
+    fn from(error: octray_prepare::range::OutOfRange) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
+/// A scene that violates what holds for all scenes.
+impl From<octray_scenes::check::Broken> for Error {
+    fn from(broken: octray_scenes::check::Broken) -> Self {
+        Self::Scene(format!("error: {broken}"))
+    }
+}
+
+/// A scene made in code that was refused, with its mistakes, a line each.
+impl From<octray_scenes::builder::Mistakes> for Error {
+    fn from(mistakes: octray_scenes::builder::Mistakes) -> Self {
+        Self::Scene(mistakes.to_string())
     }
 }
 

@@ -1,21 +1,25 @@
 //! Renders scenes on threads, in any arithmetic with any tree, chosen at run time.
 //!
-//! ```
-//! use octray_render::{Arith, RenderSettings};
+//! A scene made in code, rendered in fixed point, as a PNG file:
 //!
-//! let scene = octray_scenes::parse(
-//!     "v 0 0 500  l 200 300 400 1  f 0.1 0.1 0.1  0.7 0.3 0.2  0.4 0.4 0.4  30 0.2 0  s 0 0 -50 140",
-//! )?;
-//! for arith in [Arith::F32, Arith::I16F16] {
-//!     let settings = RenderSettings { arith, size: Some((64, 48)), ..RenderSettings::default() };
-//!     let rendering = octray_render::render(&scene, &settings)?;
-//!     println!("{}: {} rays", rendering.format, rendering.counters.all_rays());
-//!     # let folder = std::env::temp_dir();
-//!     std::fs::write(folder.join(format!("{}.png", rendering.format)), rendering.picture.png()?)?;
-//!     # std::fs::remove_file(folder.join(format!("{}.png", rendering.format)))?;
-//! }
+//! ```
+//! use octray_render::{Arith, RenderSettings, SceneBuilder, Surface, render};
+//!
+//! let mut scene = SceneBuilder::look([0.0, 2.0, 6.0], [0.0, 0.7, 0.0], 40.0); // from, at, angle
+//! scene.background([0.3, 0.5, 0.8]);
+//! scene.light([4.0, 6.0, 4.0], 1.0);
+//! scene.sphere([0.0, 1.0, 0.0], 1.0, Surface::glossy([0.8, 0.2, 0.1], 30.0, 0.2));
+//! let floor = [[-9.0, 0.0, 9.0], [9.0, 0.0, 9.0], [9.0, 0.0, -9.0], [-9.0, 0.0, -9.0]];
+//! scene.polygon(&floor, Surface::matt([0.6; 3]));
+//! let settings = RenderSettings { arith: Arith::I16F16, size: Some((320, 240)), ..Default::default() };
+//! let rendering = render(&scene.build()?, &settings)?;
+//! println!("{} rays in {:?}", rendering.counters.all_rays(), rendering.render);
+//! rendering.save("red-ball.png")?;
+//! # std::fs::remove_file("red-ball.png")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! With [`scenes::read`]`("ball.scene")?` in place of `scene.build()?` the scene comes from a file.
 //!
 //! The modules, in the order of the data:
 //!
@@ -66,6 +70,10 @@ pub use error::Error;
 pub use octray_prepare::{
     Adaptive, Arith, Format, PixelsPerRay, RenderSettings, TreeKind, TreeSettings,
 };
+/// Scenes: files, [`SceneBuilder`], and the [`model`](octray_scenes::model) of both.
+pub use octray_scenes as scenes;
+pub use octray_scenes::builder::SceneBuilder;
+pub use octray_scenes::model::{Camera, Projection, Scene, Surface};
 pub use picture::Picture;
 pub use render::{Rendering, render};
 pub use schedule::Schedule;

@@ -16,12 +16,15 @@ pub use dither::Dither;
 pub use format::{Format, Target, decode, read};
 pub use ras::RasDepth;
 
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::tile::TileBuffer;
 use crate::tile::{Intensity, Level};
 use fnv::FnvHasher;
 use std::hash::Hasher;
 use std::io;
 use std::ops::{Range, RangeFrom};
+use std::path::Path;
 
 /// A picture, rows from top to bottom, columns from left to right.
 ///
@@ -139,6 +142,20 @@ impl Picture {
         hasher.write(&self.height.to_le_bytes());
         hasher.write(self.levels.as_flattened());
         hasher.finish()
+    }
+
+    /// Writes the picture in the format that the file's ending names (`.png`, `.ppm`, `.pfm`, `.ras` or `.int`), whole or
+    /// not at all: what was there before stays until the new file is complete. `-` is standard output, as PNG.
+    ///
+    /// `.pfm` and `.int` hold intensities; of a picture without them, the levels divided by 255. A `.ras` has 256
+    /// colours; [`Target::write`] has its other depths, and stops when asked to.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the ending is unknown, [`Error::Write`] with the file and the system's reason.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        Target::new(path.as_ref().to_owned())
+            .map_err(Error::Usage)?
+            .write(self, RasDepth::default(), &Interrupt::new())
     }
 
     /// The levels as the bytes of a PNG file, as small as is worth the time. [`Target::write`] is faster, and compresses less.

@@ -18,8 +18,10 @@ use octray_core::frame::Region;
 use octray_core::observe::Counters;
 use octray_prepare::format::Format;
 use octray_prepare::{Adaptive, RenderSettings};
+use octray_scenes::check;
 use octray_scenes::model::Scene;
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The function that all tracing happens in, as Callgrind names it.
@@ -50,11 +52,24 @@ pub struct Rendering {
     pub work: Work,
 }
 
-/// Renders a scene on all cores.
+impl Rendering {
+    /// Writes the picture: as [`Picture::save`] does.
+    ///
+    /// # Errors
+    /// Those of [`Picture::save`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        self.picture.save(path)
+    }
+}
+
+/// Renders a scene on all cores: one that was parsed, made by a [`SceneBuilder`](octray_scenes::SceneBuilder), or any
+/// other.
 ///
 /// # Errors
+/// [`Error::Scene`] if the scene breaks a rule of [`check::scene`]; [`Error::Usage`] if a setting is not in its range;
 /// [`Error::Failed`] if the scene does not fit the arithmetic or the picture does not fit into memory.
 pub fn render(scene: &Scene, settings: &RenderSettings) -> Result<Rendering, Error> {
+    check::scene(scene)?;
     render_with(
         scene,
         settings,
@@ -65,10 +80,11 @@ pub fn render(scene: &Scene, settings: &RenderSettings) -> Result<Rendering, Err
     )
 }
 
-/// Renders a scene as scheduled, with intensities beside levels if they are wanted.
+/// Renders a scene as scheduled, with intensities beside levels if they are wanted. The scene must pass
+/// [`check::scene`], as every parsed one does.
 ///
 /// # Errors
-/// [`Error::Failed`] if the scene does not fit the arithmetic, the picture does not fit into memory or the system
+/// [`Error::Usage`] if a setting is not in its range; [`Error::Failed`] if the scene does not fit the arithmetic, the picture does not fit into memory or the system
 /// refuses a thread; [`Error::Interrupted`] if it was; [`Error::TooManyRays`] if it took more than the budget.
 pub fn render_with(
     scene: &Scene,
@@ -78,6 +94,7 @@ pub fn render_with(
     progress: &dyn Progress,
     interrupt: &Interrupt,
 ) -> Result<Rendering, Error> {
+    settings.check()?;
     let begin = Instant::now();
     let renderer = renderer::prepare(scene, settings)?;
     let build = begin.elapsed();

@@ -21,9 +21,11 @@ const THINNEST: f64 = 1e-9;
 /// A polygon may be off its plane by this fraction of its size, with a warning.
 const UNEVEN: f64 = 1e-3;
 
-/// What is odd about a polygon that can be rendered.
+/// What is odd about a polygon, but no mistake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Oddity {
+    /// All vertices on one line: it cannot be rendered, and is left out.
+    NoArea,
     /// A vertex equal to the one before it, 0 if the last one equals the first.
     RepeatedVertex { vertex: usize },
     /// A vertex at some distance, in scene units, from the plane of the others.

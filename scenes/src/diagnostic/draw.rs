@@ -1,6 +1,6 @@
 //! Draws mistakes beside their lines.
 
-use super::{Diagnostic, Diagnostics, MOST, MistakeKind, Warnings, words};
+use super::{Diagnostic, Diagnostics, MistakeKind, Warnings, words};
 use crate::name::escaped;
 use crate::word::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
@@ -18,9 +18,7 @@ pub(super) fn draw(diagnostics: &Diagnostics, path: &str, source: &str) -> Strin
         .map(|mistake| renderer.render(&[group(mistake, &path, source)]))
         .collect();
     if diagnostics.more {
-        drawn.push(format!(
-            "and more: only the first {MOST} mistakes are shown"
-        ));
+        drawn.push(words::only_the_first());
     }
     drawn.join("\n\n")
 }
@@ -41,10 +39,8 @@ pub(super) fn warnings(warnings: &Warnings, path: &str, source: &str) -> String 
             renderer.render(&[group])
         })
         .collect();
-    match warnings.more {
-        0 => {}
-        1 => drawn.push(format!("{path}: 1 more warning")),
-        more => drawn.push(format!("{path}: {more} more warnings")),
+    if warnings.more > 0 {
+        drawn.push(format!("{path}: {}", words::more_warnings(warnings.more)));
     }
     drawn.join("\n\n")
 }

@@ -1,6 +1,7 @@
 //! What is odd about a scene file but does not keep it from being rendered.
 
 use super::draw;
+use crate::check::Oddity;
 use crate::word::{Keyword, Span};
 
 /// As many warnings are kept with their places; the others are counted.
@@ -25,6 +26,20 @@ pub enum WarningKind {
         /// Its distance from the plane, in scene units.
         distance: f64,
     },
+}
+
+impl WarningKind {
+    /// Returns the warning about a polygon or a patch, and the vertex that it is about, if it is about one.
+    pub(crate) fn of(oddity: Oddity, keyword: Keyword) -> (Self, Option<usize>) {
+        match oddity {
+            Oddity::NoArea => (Self::NoArea { keyword }, None),
+            Oddity::RepeatedVertex { vertex } => {
+                let first = vertex == 0;
+                (Self::RepeatedVertex { first }, Some(vertex))
+            }
+            Oddity::Uneven { vertex, distance } => (Self::Uneven { distance }, Some(vertex)),
+        }
+    }
 }
 
 /// One warning.

@@ -1,6 +1,6 @@
 //! The texts of error messages: a title, and a label for the place.
 
-use super::{MistakeKind, WarningKind};
+use super::{MOST, MistakeKind, WarningKind};
 use crate::check::Fault;
 use crate::word::Keyword;
 
@@ -116,12 +116,19 @@ pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
             "`from` beside a `v` that has a position",
             "expected the position either after `v` or after `from`",
         ),
-        MistakeKind::Fault(fault) => (fault.to_string(), expected(fault, found)),
+        MistakeKind::Fault(fault) => {
+            let expected = expected(fault);
+            let label = match tells_found(fault) {
+                true => expected,
+                false => format!("{expected}, found `{found}`"),
+            };
+            (fault.to_string(), label)
+        }
     }
 }
 
 /// Returns title and label of a warning.
-pub(super) fn warn(kind: &WarningKind) -> (String, String) {
+pub(crate) fn warn(kind: &WarningKind) -> (String, String) {
     match kind {
         WarningKind::NoArea { keyword } => {
             let what = match keyword {
@@ -153,19 +160,19 @@ pub(super) fn warn(kind: &WarningKind) -> (String, String) {
     }
 }
 
-/// Returns a label that states what was expected instead of `fault`.
-fn expected(fault: &Fault, found: &str) -> String {
+/// Says what was expected instead of `fault`.
+pub(crate) fn expected(fault: &Fault) -> String {
     let wanted = match fault {
         Fault::NotFinite => "values whose products are finite",
         Fault::ZeroRadius => "a radius other than 0",
-        Fault::NegativeRadius => "a radius of at least 0",
+        Fault::NegativeRadius => "a radius above 0",
         Fault::ZeroRadii => "at least one radius other than 0",
         Fault::BaseIsTop => "a top at another place than the base",
         Fault::FlatBox { .. } => "a length above 0 for every side",
         Fault::TooFewVertices => "at least 3 vertices",
         Fault::VertexRange => "vertices that are in the scene",
-        Fault::TooLarge => return format!("expected at most {} in a file", u32::MAX),
-        Fault::Collinear => return "expected vertices that span a plane".to_owned(),
+        Fault::TooLarge => return format!("expected at most {} in a scene", u32::MAX),
+        Fault::Collinear => "vertices that span a plane",
         Fault::NotPlanar {
             distance,
             tolerance,
@@ -189,7 +196,26 @@ fn expected(fault: &Fault, found: &str) -> String {
         Fault::Resolution => "a whole number from 1 to 65535",
         Fault::SurfaceIndex => "the index of a surface",
     };
-    format!("expected {wanted}, found `{found}`")
+    format!("expected {wanted}")
+}
+
+/// Whether [`expected`] also says what is there instead.
+fn tells_found(fault: &Fault) -> bool {
+    matches!(
+        fault,
+        Fault::TooLarge | Fault::Collinear | Fault::NotPlanar { .. } | Fault::FromIsAt
+    )
+}
+
+/// The line after as many mistakes as are kept.
+pub(crate) fn only_the_first() -> String {
+    format!("and more: only the first {MOST} mistakes are shown")
+}
+
+/// The line after as many warnings as are kept.
+pub(crate) fn more_warnings(more: usize) -> String {
+    let plural = if more == 1 { "" } else { "s" };
+    format!("{more} more warning{plural}")
 }
 
 fn numbers(count: usize) -> String {

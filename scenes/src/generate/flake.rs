@@ -1,8 +1,8 @@
 //! The sphere flake.
 
 use super::random::{Random, around, unit};
-use super::stage::{PALETTE, Stage, glossy, matt};
-use crate::model::Point;
+use super::stage::{PALETTE, Stage, glossy};
+use crate::model::{Point, Surface};
 use crate::point::{add, dot, times};
 
 struct Ball {
@@ -13,7 +13,7 @@ struct Ball {
 }
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
-    let ground = stage.surface(matt(PALETTE[2]));
+    let ground = stage.surface(Surface::matt(PALETTE[2]));
     let slots = slots();
     let mut left = objects;
     let mut generation = vec![Ball {

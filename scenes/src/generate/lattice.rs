@@ -1,17 +1,17 @@
 //! The lattice of spheres and rods.
 
 use super::random::{Random, circle};
-use super::stage::{PALETTE, Stage, glass, glossy, matt};
-use crate::model::Point;
+use super::stage::{PALETTE, Stage, glossy};
+use crate::model::{Point, Surface};
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
-    let ground = stage.surface(matt(PALETTE[2]));
+    let ground = stage.surface(Surface::matt(PALETTE[2]));
     let rod = stage.surface(glossy(PALETTE[7], 0.25));
     let mut balls: Vec<u32> = PALETTE[..7]
         .iter()
         .map(|&colour| stage.surface(glossy(colour, 0.15)))
         .collect();
-    balls.push(stage.surface(glass()));
+    balls.push(stage.surface(Surface::glass(1.5)));
 
     // The layers that the objects fill, in a cube from -1 to 1, slightly rotated.
     let layers = layers(objects);

@@ -1,18 +1,18 @@
 //! A soup of all shapes.
 
 use super::random::{Random, across, circle};
-use super::stage::{PALETTE, Stage, glass, glossy, matt};
-use crate::model::Point;
+use super::stage::{PALETTE, Stage, glossy};
+use crate::model::{Point, Surface};
 use crate::point::{add, times};
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
-    let ground = stage.surface(matt(PALETTE[2]));
+    let ground = stage.surface(Surface::matt(PALETTE[2]));
     let mut surfaces: Vec<u32> = PALETTE
         .iter()
-        .map(|&colour| stage.surface(matt(colour)))
+        .map(|&colour| stage.surface(Surface::matt(colour)))
         .collect();
     surfaces.extend(PALETTE.map(|colour| stage.surface(glossy(colour, 0.3))));
-    surfaces.push(stage.surface(glass()));
+    surfaces.push(stage.surface(Surface::glass(1.5)));
 
     // Each object is about as large as the space that is available to it.
     let cells = (1..).find(|&n: &usize| n * n * n >= objects).unwrap_or(1);

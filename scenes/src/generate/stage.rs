@@ -158,37 +158,9 @@ impl Stage {
     }
 }
 
-/// Returns a surface that scatters light.
-pub(super) fn matt(colour: Colour) -> Surface {
-    Surface {
-        ambient: times(colour, 0.12),
-        diffuse: times(colour, 0.88),
-        ..Surface::default()
-    }
-}
-
-/// Returns a matt surface with a highlight, which mirrors the share `reflect`.
+/// Returns a glossy surface with a highlight of medium size, which mirrors the share `reflect`.
 pub(super) fn glossy(colour: Colour, reflect: f64) -> Surface {
-    Surface {
-        ambient: times(colour, 0.1),
-        diffuse: times(colour, 0.9 - reflect),
-        specular: [0.5; 3],
-        shine: 40.0,
-        reflect,
-        ..Surface::default()
-    }
-}
-
-/// Returns glass.
-pub(super) fn glass() -> Surface {
-    Surface {
-        specular: [0.6; 3],
-        shine: 120.0,
-        reflect: 0.1,
-        refract: 0.85,
-        ior: 1.5,
-        ..Surface::default()
-    }
+    Surface::glossy(colour, 40.0, reflect)
 }
 
 /// A palette: brick, ochre, sand, leaf, sea, sky, plum and chalk.

@@ -1,8 +1,8 @@
 //! Fractal mountains.
 
 use super::random::Random;
-use super::stage::{PALETTE, Stage, glossy, matt};
-use crate::model::Point;
+use super::stage::{PALETTE, Stage, glossy};
+use crate::model::{Point, Surface};
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
     let lake = stage.surface(glossy([0.1, 0.25, 0.4], 0.45));
@@ -12,7 +12,7 @@ pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
         [0.45, 0.4, 0.36],
         [0.95, 0.95, 0.97],
     ]
-    .map(|colour| stage.surface(matt(colour)));
+    .map(|colour| stage.surface(Surface::matt(colour)));
 
     let cells = (objects / 2).max(1);
     let columns = cells.isqrt();

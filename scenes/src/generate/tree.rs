@@ -1,8 +1,8 @@
 //! A tree with branches.
 
 use super::random::{Random, around, unit};
-use super::stage::{PALETTE, Stage, glossy, matt};
-use crate::model::Point;
+use super::stage::{PALETTE, Stage, glossy};
+use crate::model::{Point, Surface};
 use crate::point::{add, times};
 
 /// Number of branches on each branch.
@@ -26,8 +26,8 @@ impl Branch {
 }
 
 pub(super) fn build(stage: &mut Stage, objects: usize, mut random: Random) {
-    let ground = stage.surface(matt([0.45, 0.6, 0.3]));
-    let bark = stage.surface(matt([0.45, 0.3, 0.2]));
+    let ground = stage.surface(Surface::matt([0.45, 0.6, 0.3]));
+    let bark = stage.surface(Surface::matt([0.45, 0.3, 0.2]));
     let leaves = [PALETTE[3], [0.5, 0.68, 0.2], PALETTE[1], PALETTE[0]]
         .map(|colour| stage.surface(glossy(colour, 0.1)));
 

@@ -1,26 +1,23 @@
-//! Builds the scene from entities.
+//! Builds the scene from entities: what their numbers mean, and which of them is to blame for a fault.
 
 use super::entity::Entity;
 use super::header::Header;
-use crate::check::{self, Fault, Oddity};
+use crate::check::{self, Fault};
 use crate::diagnostic::{Diagnostic, MistakeKind, Sink, WarningKind};
-use crate::model::{Checker, Light, Object, Point, Scene, Shape, Surface};
+use crate::model::{Checker, Light, Scene, Shape, Surface};
 use crate::word::{Keyword, Span};
 
 /// A scene under construction.
 #[derive(Debug, Default)]
 pub(super) struct Builder {
     header: Header,
-    lights: Vec<Light>,
+    /// What comes after the header.
+    scene: Scene,
     /// Lights without a colour; theirs depends on the total number of lights.
     colourless: Vec<usize>,
-    surfaces: Vec<Surface>,
     /// What a checker's colour is multiplied by, if the last entity was a surface: NFF's Kd, or `None` for a surface of
     /// the thesis, whose checker has an ambient colour, too.
     checkered_by: Option<Option<f64>>,
-    objects: Vec<Object>,
-    vertices: Vec<Point>,
-    normals: Vec<Point>,
     /// Whether there was any entity.
     begun: bool,
 }
@@ -34,9 +31,9 @@ impl Builder {
             entity.keyword,
             Keyword::Sphere | Keyword::Cone | Keyword::Cuboid | Keyword::Polygon | Keyword::Patch
         );
-        if is_object && self.surfaces.is_empty() {
+        if is_object && self.scene.surfaces.is_empty() {
             mistakes.push(MistakeKind::NoSurface, entity.span);
-            self.surfaces.push(Surface::default()); // Report it once.
+            self.scene.surfaces.push(Surface::default()); // Report it once.
         }
         let after_surface = match entity.keyword {
             Keyword::Checker => self.checkered_by,
@@ -51,35 +48,29 @@ impl Builder {
         }
         // What is wrong shall not be reported as missing too.
         match entity.keyword {
-            Keyword::Surface => self.surfaces.push(Surface::default()),
+            Keyword::Surface => self.scene.surfaces.push(Surface::default()),
             keyword => self.header.mark_invalid(keyword, entity.span),
         }
     }
 
     /// Returns the number of objects so far.
     pub(super) fn objects(&self) -> usize {
-        self.objects.len()
+        self.scene.objects.len()
     }
 
     /// Returns the scene. Missing or contradictory parts are reported in `mistakes`; after any mistake the scene is
     /// meaningless.
     pub(super) fn finish(mut self, source: &str, mistakes: &mut Sink) -> Scene {
-        let brightness = 1.0 / (self.lights.len() as f64).sqrt();
+        let brightness = 1.0 / (self.scene.lights.len() as f64).sqrt();
         for index in self.colourless {
-            self.lights[index].colour = [brightness; 3];
+            self.scene.lights[index].colour = [brightness; 3];
         }
         let end = source.trim_end().len();
         let end = Span { start: end, end };
         if !self.begun && mistakes.is_empty() {
             mistakes.push(MistakeKind::Empty, end);
         }
-        let mut scene = self.header.finish(end, mistakes);
-        scene.lights = self.lights;
-        scene.surfaces = self.surfaces;
-        scene.objects = self.objects;
-        scene.vertices = self.vertices;
-        scene.normals = self.normals;
-        scene
+        self.header.finish(self.scene, end, mistakes)
     }
 
     fn place(
@@ -89,31 +80,33 @@ impl Builder {
         after_surface: Option<Option<f64>>,
         mistakes: &mut Sink,
     ) -> Result<(), Diagnostic> {
-        let shape = match entity.keyword {
+        let surface = || self.last_surface(entity);
+        let (shape, surface) = match entity.keyword {
             Keyword::Light => return self.light(entity, numbers),
             Keyword::Surface => return self.surface(entity, numbers),
             Keyword::Checker => return self.checker(entity, numbers, after_surface),
-            Keyword::Sphere => sphere(entity, numbers)?,
-            Keyword::Cone => cone(entity, numbers)?,
-            Keyword::Cuboid => cuboid(entity, numbers)?,
+            Keyword::Sphere => (sphere(entity, numbers)?, surface()?),
+            Keyword::Cone => (cone(entity, numbers)?, surface()?),
+            Keyword::Cuboid => (cuboid(entity, numbers)?, surface()?),
             Keyword::Polygon | Keyword::Patch => {
-                match self.polygon_or_patch(entity, numbers, mistakes)? {
-                    Some(shape) => shape,
-                    None => return Ok(()),
-                }
+                return self.polygon_or_patch(entity, numbers, mistakes);
             }
             _ => return self.header.place(entity, numbers),
         };
-        let surface = self.surfaces.len() - 1;
-        let surface = u32::try_from(surface).map_err(|_| entity.fault(0..0, Fault::TooLarge))?;
-        self.objects.push(Object { shape, surface });
-        Ok(())
+        let blamed = |fault| match (fault, entity.keyword) {
+            (Fault::FlatBox { axis }, _) => 3 + axis..4 + axis,
+            (Fault::BaseIsTop, _) => 4..7,
+            (_, Keyword::Sphere) => 3..4,
+            (_, Keyword::Cone) => 7..8,
+            _ => 0..6,
+        };
+        (self.scene.add_solid(shape, surface)).map_err(|fault| entity.fault(blamed(fault), fault))
     }
 
     fn light(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
         let (position, colour) = match *numbers {
             [x, y, z] => {
-                self.colourless.push(self.lights.len());
+                self.colourless.push(self.scene.lights.len());
                 ([x, y, z], [0.0; 3])
             }
             [x, y, z, brightness] => ([x, y, z], [brightness; 3]),
@@ -121,8 +114,8 @@ impl Builder {
             _ => return Err(entity.count(numbers, &[3, 4, 6])),
         };
         entity.not_negative(3, &numbers[3..])?;
-        self.lights.push(Light { position, colour });
-        Ok(())
+        (self.scene.add_light(Light { position, colour }))
+            .map_err(|fault| entity.fault(0..numbers.len(), fault))
     }
 
     fn surface(&mut self, entity: &Entity<'_>, numbers: &[f64]) -> Result<(), Diagnostic> {
@@ -169,13 +162,16 @@ impl Builder {
         };
         let coefficients = ior.map_or(numbers.len(), |(index, _)| index);
         entity.not_negative(0, &numbers[..coefficients])?;
-        // An opaque surface has no inside; files hold 0 or anything else there.
-        if let Some((index, ior)) = ior.filter(|_| surface.refract > 0.0) {
+        if let Some((_, ior)) = ior {
             surface.ior = ior;
-            check::surface(&surface).map_err(|fault| entity.fault(index..index + 1, fault))?;
         }
-        check::surface(&surface).map_err(|fault| entity.fault(0..4, fault))?;
-        self.surfaces.push(surface);
+        self.scene.add_surface(surface).map_err(|fault| {
+            let blamed = match (fault, ior) {
+                (Fault::RefractionIndex, Some((index, _))) => index..index + 1,
+                _ => 0..4,
+            };
+            entity.fault(blamed, fault)
+        })?;
         self.checkered_by = Some((numbers.len() == 8).then(|| numbers[3]));
         Ok(())
     }
@@ -187,7 +183,7 @@ impl Builder {
         numbers: &[f64],
         after_surface: Option<Option<f64>>,
     ) -> Result<(), Diagnostic> {
-        let (Some(kd), Some(surface)) = (after_surface, self.surfaces.last_mut()) else {
+        let (Some(kd), Some(surface)) = (after_surface, self.scene.surfaces.last_mut()) else {
             return Err(entity.mistake(0..0, MistakeKind::LooseChecker));
         };
         let (size, ambient, diffuse) = match (kd, numbers) {
@@ -207,38 +203,23 @@ impl Builder {
         Ok(())
     }
 
-    /// Returns a polygon or patch; `None` after a warning if it has no area.
+    /// Adds a polygon or patch; what is odd about it becomes a warning.
     fn polygon_or_patch(
         &mut self,
         entity: &Entity<'_>,
         numbers: &[f64],
         mistakes: &mut Sink,
-    ) -> Result<Option<Shape>, Diagnostic> {
+    ) -> Result<(), Diagnostic> {
         let is_patch = entity.keyword == Keyword::Patch;
         let each = if is_patch { 6 } else { 3 };
-        let (count, coordinates) = announced(entity, numbers, each)?;
-        let (first, first_normal) = (self.vertices.len(), self.normals.len());
-        for vertex in coordinates.chunks_exact(each) {
-            let (points, _) = vertex.as_chunks::<3>();
-            self.vertices.push(points[0]);
-            self.normals.extend(&points[1..]);
-        }
-        let vertices = &self.vertices[first..];
-        let oddity = match check::polygon(vertices) {
-            Err(Fault::Collinear) => {
-                let keyword = entity.keyword;
-                let warning = WarningKind::NoArea { keyword };
-                mistakes.warnings.push(warning, || entity.span);
-                self.vertices.truncate(first);
-                self.normals.truncate(first_normal);
-                return Ok(None);
-            }
-            checked => checked.and_then(|oddity| {
-                check::normals(&self.normals[first_normal..])?;
-                Ok(oddity)
-            }),
-        };
+        let coordinates = announced(entity, numbers, each)?;
+        let corners = coordinates.chunks_exact(each).map(|corner| {
+            let (points, _) = corner.as_chunks::<3>();
+            (points[0], points.get(1).copied())
+        });
+        let surface = self.last_surface(entity)?;
         let place = |vertex: usize| 1 + vertex * each..4 + vertex * each;
+        let oddity = self.scene.add_polygon(corners, is_patch, surface);
         let oddity = oddity.map_err(|fault| {
             let blamed = match fault {
                 Fault::NotPlanar { vertex, .. } => place(vertex),
@@ -248,80 +229,52 @@ impl Builder {
             entity.fault(blamed, fault)
         })?;
         if let Some(oddity) = oddity {
-            let (vertex, warning) = match oddity {
-                Oddity::RepeatedVertex { vertex } => {
-                    let first = vertex == 0;
-                    (vertex, WarningKind::RepeatedVertex { first })
-                }
-                Oddity::Uneven { vertex, distance } => (vertex, WarningKind::Uneven { distance }),
-            };
-            mistakes
-                .warnings
-                .push(warning, || entity.span_of(place(vertex)));
+            let (warning, vertex) = WarningKind::of(oddity, entity.keyword);
+            let span = || vertex.map_or(entity.span, |vertex| entity.span_of(place(vertex)));
+            mistakes.warnings.push(warning, span);
         }
-        let too_large = |_| entity.fault(0..0, Fault::TooLarge);
-        let index = |list: &[Point]| u32::try_from(list.len()).map_err(too_large);
-        index(&self.vertices)?;
-        index(&self.normals)?;
-        let (first, first_normal) = (first as u32, first_normal as u32);
-        Ok(Some(match is_patch {
-            true => Shape::Patch {
-                first,
-                count,
-                first_normal,
-            },
-            false => Shape::Polygon { first, count },
-        }))
+        Ok(())
+    }
+
+    /// Returns the surface that an object has: the last one before it.
+    fn last_surface(&self, entity: &Entity<'_>) -> Result<u32, Diagnostic> {
+        u32::try_from(self.scene.surfaces.len() - 1)
+            .map_err(|_| entity.fault(0..0, Fault::TooLarge))
     }
 }
 
 fn sphere(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
     let [x, y, z, radius] = entity.exactly(numbers)?;
-    let (centre, radius) = ([x, y, z], radius.abs());
-    check::sphere(&centre, radius).map_err(|fault| entity.fault(3..4, fault))?;
-    Ok(Shape::Sphere { centre, radius })
+    Ok(Shape::Sphere {
+        centre: [x, y, z],
+        radius: radius.abs(),
+    })
 }
 
 fn cone(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
     let [bx, by, bz, br, tx, ty, tz, tr] = entity.exactly(numbers)?;
-    let (base, base_radius) = ([bx, by, bz], br.abs());
-    let (top, top_radius) = ([tx, ty, tz], tr.abs());
-    check::cone(&base, &top, [base_radius, top_radius]).map_err(|fault| {
-        let blamed = if fault == Fault::BaseIsTop {
-            4..7
-        } else {
-            7..8
-        };
-        entity.fault(blamed, fault)
-    })?;
     Ok(Shape::Cone {
-        base,
-        base_radius,
-        top,
-        top_radius,
+        base: [bx, by, bz],
+        base_radius: br.abs(),
+        top: [tx, ty, tz],
+        top_radius: tr.abs(),
     })
 }
 
 fn cuboid(entity: &Entity<'_>, numbers: &[f64]) -> Result<Shape, Diagnostic> {
     let [x, y, z, sx, sy, sz] = entity.exactly(numbers)?;
-    let (centre, size) = ([x, y, z], [sx, sy, sz]);
-    check::cuboid(&centre, &size).map_err(|fault| {
-        let blamed = if let Fault::FlatBox { axis } = fault {
-            3 + axis..4 + axis
-        } else {
-            0..6
-        };
-        entity.fault(blamed, fault)
-    })?;
-    Ok(Shape::Cuboid { centre, size })
+    Ok(Shape::Cuboid {
+        centre: [x, y, z],
+        size: [sx, sy, sz],
+    })
 }
 
-/// Splits a polygon's numbers into the number of vertices and `each` numbers per vertex.
+/// Returns a polygon's numbers behind the number of vertices: `each` for every vertex.
 fn announced<'n>(
     entity: &Entity<'_>,
     numbers: &'n [f64],
     each: usize,
-) -> Result<(u32, &'n [f64]), Diagnostic> {
+) -> Result<&'n [f64], Diagnostic> {
     let (&count, coordinates) = numbers
         .split_first()
         .ok_or_else(|| entity.count(numbers, &[]))?;
@@ -347,5 +300,5 @@ fn announced<'n>(
         };
         return Err(entity.mistake(blamed, kind));
     }
-    Ok((count, coordinates))
+    Ok(coordinates)
 }

@@ -142,20 +142,19 @@ impl Header {
         }
     }
 
-    /// Returns a scene without objects. Missing or contradictory parts are reported in `mistakes`.
-    pub(super) fn finish(self, end: Span, mistakes: &mut Sink) -> Scene {
+    /// Returns `scene` with these parts. Missing or contradictory ones are reported in `mistakes`.
+    pub(super) fn finish(self, scene: Scene, end: Span, mistakes: &mut Sink) -> Scene {
         self.check_dialect(mistakes);
         let camera = self.camera(end).unwrap_or_else(|mistake| {
             // If a mistake ended reading, missing parts may be in the rest.
             if let Some(Diagnostic { kind, span }) = mistake.filter(|_| !mistakes.ends_reading()) {
                 mistakes.push(kind, span);
             }
-            Scene::default().camera
+            scene.camera
         });
-        let Scene { width, height, .. } = Scene::default();
         let [width, height] = self
             .resolution
-            .map_or([width, height], |resolution| resolution.value);
+            .map_or([scene.width, scene.height], |resolution| resolution.value);
         let background = self.background.map(|background| background.value);
         let (background, zenith) = background.unwrap_or_default();
         Scene {
@@ -164,7 +163,7 @@ impl Header {
             height,
             background,
             zenith,
-            ..Scene::default()
+            ..scene
         }
     }
 
