@@ -9,9 +9,10 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::scene_file;
-use octray_scenes::reduce::Reduction;
 #[cfg(feature = "lab")]
-use octray_scenes::{input, name::Shown};
+use octray_scenes::input;
+use octray_scenes::name::Shown;
+use octray_scenes::reduce::Reduction;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -80,6 +81,14 @@ pub fn run(job: &BakeJob, interrupt: &Interrupt) -> Result<(), Error> {
     };
     let baked = bake(&scene, &options).map_err(|error| Error::Failed(error.to_string()))?;
     interrupt.check()?;
+    if let Some(what) = &baked.too_fine {
+        // A warning that cannot be written stops nothing.
+        let _ = writeln!(
+            io::stderr().lock(),
+            "warning: {}: too coarse: {what}",
+            Shown(&job.scene)
+        );
+    }
     let write = |out: &mut dyn Write| -> io::Result<()> { out.write_all(baked.source.as_bytes()) };
     match &job.output {
         Some(path) => output::write_file(path, interrupt, write),

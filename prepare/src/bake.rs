@@ -29,7 +29,7 @@ use crate::dispatch::InFormat;
 use crate::format::Format;
 use crate::literal::Literal;
 use crate::prepare::Prepare;
-use crate::quantise::{Overflow, Prepared};
+use crate::quantise::{Overflow, Prepared, TooFine};
 use crate::settings::{RenderSettings, TreeKind};
 use crate::tree::{Growth, every_object};
 use octray_core::accel;
@@ -74,7 +74,7 @@ impl<'a> BakeOptions<'a> {
 }
 
 /// A baked scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Baked {
     /// Rust source.
     pub source: String,
@@ -82,6 +82,8 @@ pub struct Baked {
     pub format: Format,
     /// The features that the scene uses.
     pub features: FeatureSet,
+    /// What the format is too coarse for, if anything: the picture may be wrong.
+    pub too_fine: Option<TooFine>,
     /// Bytes of the tables, including links and nodes, on a 32-bit target.
     pub bytes: usize,
     /// The maximum number of queued rays.
@@ -131,6 +133,7 @@ fn bake_as<S: Prepare>(
 ) -> Result<Baked, BakeError> {
     let settings = &options.settings;
     let mut prepared = S::quantised(scene, settings).map_err(BakeError::Overflow)?;
+    let too_fine = S::resolution(scene, settings).err();
     let growth = settings.tree.build_options(format, options.target);
     let grow = |scene: &mut _| {
         let growth = Growth {
@@ -175,6 +178,7 @@ fn bake_as<S: Prepare>(
         options,
     };
     Ok(Baked {
+        too_fine,
         bytes: tables.bytes(),
         source: tables.to_string(),
         format,

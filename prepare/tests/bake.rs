@@ -1,9 +1,9 @@
 //! Baked scenes: the features that they request, and the numbers that are written.
 
 use octray_prepare::RenderSettings;
-use octray_prepare::bake::{BakeError, BakeOptions, Baked, bake};
+use octray_prepare::bake::{BakeError, BakeOptions, Baked, bake, file};
 use octray_prepare::choice::Choice;
-use octray_prepare::{Arith, Format, TreeKind, TreeSettings};
+use octray_prepare::{Arith, FirmwareTree, Format, TreeKind, TreeSettings};
 
 const HEAD: &str = "v 0 0 9 resolution 8 8 l 5 5 9 1";
 
@@ -110,4 +110,68 @@ fn what_does_not_fit_a_format_is_reported() {
         "{why}"
     );
     assert!(why.ends_with(expected), "{why}");
+}
+
+#[test]
+fn what_a_format_is_too_coarse_for_is_told() {
+    let scene = "f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1";
+    assert_eq!(baked(scene, Arith::I16F16, 8).unwrap().too_fine, None);
+    let small = "f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1 s 3 0 -5 0.0001";
+    let what = baked(small, Arith::I20F12, 8).unwrap().too_fine.unwrap();
+    assert!(what.what.contains("object 2"), "{what}");
+}
+
+/// A scene file in a folder of its own.
+fn written(text: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ball.scene");
+    std::fs::write(&path, format!("{HEAD} {text}")).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn a_build_script_bakes_what_the_command_bakes() {
+    let ball = "f 0 0 0 1 1 1 0 0 0 0 0.5 0 s 0 0 -5 1";
+    let (_folder, path) = written(ball);
+    let script = file(&path).arith(Arith::I16F16).max_depth(3);
+    let by_script = script.tree(FirmwareTree::NONE).source(None).unwrap();
+    let by_command = baked(ball, Arith::I16F16, 3).unwrap();
+    let rest = |source: &str| {
+        source
+            .split_once('\n')
+            .unwrap()
+            .1
+            .replace("\"ball\"", "\"test\"")
+    };
+    assert_eq!(rest(&by_script.source), rest(&by_command.source));
+}
+
+#[test]
+fn mistakes_reach_a_build_script() {
+    let why = |script: octray_prepare::bake::Script| script.source(None).unwrap_err().to_string();
+    let (_folder, path) = written("f 0 0 0 1 1 1 0 0 0 0 0.5 0 s 0 0 -5 blob");
+    assert!(why(file(&path)).contains("blob"), "{}", why(file(&path)));
+    let (_folder, path) = written("f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1");
+    let text = why(file(&path).size(0, 4));
+    assert_eq!(text, "setting size (columns) 0: expected 1 to 65535");
+    assert!(why(file(path.with_file_name("none.scene"))).contains("none.scene"));
+}
+
+#[test]
+fn room_to_move_makes_the_numbers_smaller_and_the_tree_larger() {
+    let balls = "f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1 s 2 0 -5 1 s 4 0 -5 1 s 0 2 -5 1";
+    let (_folder, path) = written(balls);
+    let script = file(&path).arith(Arith::I16F16).tree(FirmwareTree::DEVICE);
+    let still = script.clone().source(None).unwrap();
+    let moving = script
+        .room([99.0, -2.0, -9.0], [-9.0, 2.0, 9.0])
+        .source(None)
+        .unwrap();
+    let words = |baked: &Baked| baked.words;
+    assert_eq!(words(&moving), octray_core::accel::compact_words(4));
+    assert!(words(&still) < words(&moving));
+    // The middle of the room, of the viewpoint and of the light.
+    let centre = line(&moving, "    centre: ");
+    assert_eq!(centre, "    centre: [45.0, 1.5, 0.0],");
+    assert!(line(&still, "    exponent: ") != line(&moving, "    exponent: "));
 }

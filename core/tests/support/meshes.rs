@@ -3,7 +3,6 @@
 use fastrand::Rng;
 use octray_core::quantize::Quantize;
 use octray_core::ray::Ray;
-use octray_core::vec3::Vec3;
 use octray_core::world::World;
 use octray_scenes::point::{add, times};
 use std::f64::consts::TAU;

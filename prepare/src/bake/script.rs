@@ -2,6 +2,7 @@
 
 use super::{BakeError, BakeOptions, Baked, bake};
 use crate::format::Arith;
+use crate::range::OutOfRange;
 use crate::settings::{FirmwareTree, RenderSettings, TreeSettings};
 use octray_scenes::model::Point;
 use std::fmt::{self, Display, Formatter};
@@ -47,6 +48,8 @@ pub fn file(path: impl Into<PathBuf>) -> Script {
 pub enum ScriptError {
     /// The scene file cannot be read, or has mistakes.
     Scene(String),
+    /// A setting is outside its range.
+    Setting(OutOfRange),
     /// The scene cannot be baked.
     Bake(PathBuf, BakeError),
     /// The source cannot be written.
@@ -57,6 +60,7 @@ impl Display for ScriptError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(why) => f.write_str(why),
+            Self::Setting(why) => why.fmt(f),
             Self::Bake(path, why) => write!(f, "{}: {why}", path.display()),
             Self::Write(path, why) => write!(f, "{}: {why}", path.display()),
         }
@@ -110,8 +114,9 @@ impl Script {
     /// Returns the baked scene for a target triple, or for this machine if `None`.
     ///
     /// # Errors
-    /// If the scene file cannot be read or baked.
+    /// If a setting is outside its range, or the scene file cannot be read or baked.
     pub fn source(&self, target: Option<&str>) -> Result<Baked, ScriptError> {
+        self.settings.check().map_err(ScriptError::Setting)?;
         let mut scene = octray_scenes::read(&self.path)
             .map_err(|error| ScriptError::Scene(error.to_string()))?;
         scene.room = self.room;
@@ -140,6 +145,9 @@ impl Script {
         println!("cargo::rerun-if-changed={}", self.path.display());
         let target = env::var("TARGET").ok();
         let written = self.source(target.as_deref()).and_then(|baked| {
+            if let Some(what) = &baked.too_fine {
+                println!("cargo::warning={}: {what}", self.path.display());
+            }
             let name = self.path.with_extension("rs");
             let name = name.file_name().unwrap_or_default();
             let path = Path::new(&env::var_os("OUT_DIR").unwrap_or_default()).join(name);
