@@ -21,13 +21,17 @@ const OPTIONS: BuildOptions = BuildOptions {
 };
 
 /// Glass and mirrors, so that rays wait.
-const SCENE: &str = "v 0 0 6 at 0 0 0 up 0 1 0 angle 40 resolution 40 30 l 2 3 4 1 l -3 4 3 1
+const SCENE: &str = "v 0 0 6 at 0 0 0 up 0 1 0 angle 40 l 2 3 4 1 l -3 4 3 1
     f 0.1 0.1 0.1 0.3 0.3 0.3 0.3 0.3 0.3 20 0.3 0.6 1.5
     s 0 0 0 1 s 1.2 0.5 -1 0.7 s -1.1 -0.4 -1 0.8 box 0 -2 0 4 0.2 4";
 
 fn prepared() -> Prepared<S> {
     let scene = octray_scenes::parse(SCENE).unwrap();
-    quantise::<S>(&scene, &RenderSettings::DEFAULT).unwrap()
+    let settings = RenderSettings {
+        size: Some((40, 30)),
+        ..RenderSettings::DEFAULT
+    };
+    quantise::<S>(&scene, &settings).unwrap()
 }
 
 /// Calls `check` with what to draw.

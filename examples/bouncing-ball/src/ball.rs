@@ -16,7 +16,7 @@ use baked::{FEATURES, FRAME, GROWTH, OBJECTS, S, SCENE, SPHERES, TREE_WORDS};
 /// The ball's place among the spheres.
 const BALL: usize = baked::BY_ID[0].index();
 /// What it falls faster by with each picture.
-const GRAVITY: S = baked::length(0.05);
+const GRAVITY: S = baked::length(0.0625);
 
 /// A ball that bounces for ever.
 pub struct Bounce {
@@ -40,16 +40,15 @@ impl Bounce {
         Ok(bounce)
     }
 
-    /// Moves the ball, which comes back from the floor as fast as it meets it.
+    /// Moves the ball, which leaves the floor as fast as it meets it.
     pub fn step(&mut self) {
         let ball = &mut self.spheres[BALL];
-        let floor = baked::place([0.0, 0.0, 0.0]).y + ball.radius;
+        let lowest = baked::place([0.0, 0.0, 0.0]).y + ball.radius;
         self.fall = self.fall + GRAVITY;
-        ball.centre.y = ball.centre.y - self.fall;
-        if ball.centre.y < floor {
-            ball.centre.y = floor + floor - ball.centre.y;
+        if ball.centre.y - self.fall < lowest {
             self.fall = GRAVITY - self.fall;
         }
+        ball.centre.y = ball.centre.y - self.fall;
     }
 
     /// The scene with the ball where it is now.
