@@ -31,7 +31,7 @@ pub use reduction::ReductionArgs;
 pub use render::RenderArgs;
 pub use trace::TraceArgs;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use lab::LabCommand;
 
 /// Ray tracer that measures speed against accuracy
@@ -65,6 +65,19 @@ pub enum Command {
     /// A command of the laboratory
     #[command(flatten)]
     Lab(LabCommand),
+}
+
+/// Returns the command line as it is parsed. A negative number after an option is its value, to be refused with what was
+/// expected where it is none.
+pub fn command() -> clap::Command {
+    let takes_value =
+        |argument: &clap::Arg| !argument.is_positional() && argument.get_action().takes_values();
+    Cli::command().mut_subcommands(|command| {
+        command.mut_args(|argument| match takes_value(&argument) {
+            true => argument.allow_negative_numbers(true),
+            false => argument,
+        })
+    })
 }
 
 #[cfg(feature = "lab")]

@@ -3,8 +3,10 @@
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
-use octray_render::picture::{self, Dither, RasDepth, Target};
-use std::path::PathBuf;
+use octray_render::picture::{self, Dither, Picture, RasDepth, Target};
+use octray_render::scene_file::note;
+use octray_scenes::name::Shown;
+use std::path::{Path, PathBuf};
 
 /// What to convert, and into what.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +27,7 @@ pub struct ConvertJob {
 /// If the input cannot be read or is no picture, or the output cannot be written.
 pub fn run(job: &ConvertJob, interrupt: &Interrupt) -> Result<(), Error> {
     output::probe(&job.output.path)?;
-    let picture = picture::read(&job.input)?;
+    let picture = read(&job.input)?;
     interrupt.check()?;
     let dithered = match (job.ras_depth, job.dither) {
         // Diffusion leaves black and white as they are.
@@ -34,4 +36,19 @@ pub fn run(job: &ConvertJob, interrupt: &Interrupt) -> Result<(), Error> {
     };
     let picture = dithered.as_ref().unwrap_or(&picture);
     job.output.write(picture, job.ras_depth, interrupt)
+}
+
+/// Reads a picture; that it is the first of an animation is told on standard error.
+///
+/// # Errors
+/// Those of [`picture::read`].
+pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
+    let (picture, count) = picture::read_first(path)?;
+    if count > 1 {
+        note(&format!(
+            "{} is an animation: this is the first of its {count} pictures",
+            Shown(path)
+        ));
+    }
+    Ok(picture)
 }

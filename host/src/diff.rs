@@ -1,12 +1,13 @@
 //! `octray diff`: measures how far apart two pictures are, and checks limits.
 
+use crate::convert;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
 use octray_render::heat;
 use octray_render::interrupt::Interrupt;
 use octray_render::metric::Difference;
 use octray_render::output;
-use octray_render::picture::{self, RasDepth, Target};
+use octray_render::picture::{RasDepth, Target};
 use serde::Serialize;
 use std::fmt;
 use std::path::PathBuf;
@@ -58,7 +59,7 @@ pub enum Share {
 /// If a picture cannot be read, the sizes differ, something cannot be written, or a limit is exceeded
 /// ([`Error::Bounds`], after the result was printed).
 pub fn run(job: &DiffJob, interrupt: &Interrupt) -> Result<(), Error> {
-    let (a, b) = (picture::read(&job.a)?, picture::read(&job.b)?);
+    let (a, b) = (convert::read(&job.a)?, convert::read(&job.b)?);
     let difference = Difference::between(&a, &b)?;
     if let Some(target) = &job.heat {
         interrupt.check()?;

@@ -78,14 +78,14 @@ impl Sequence<'_> {
             .map(|i| numbered(&self.job.output.path, i))
             .collect();
         self.check_names(&names)?;
-        for (view, path) in views.iter().zip(names) {
+        for (i, (view, path)) in (1..).zip(views.iter().zip(names)) {
             let rendering = self.trace(*view)?;
             let format = self.job.output.format;
             let target = Target { path, format };
             let depth = self.job.ras_depth;
             target.write(&rendering.picture, depth, self.interrupt)?;
             self.progress.step();
-            let line = (self.line(&target.path, &rendering)).map_err(Error::Stdout)?;
+            let line = (self.line(i, &target.path, &rendering)).map_err(Error::Stdout)?;
             self.print(&target.path, &line)?;
         }
         Ok(())
@@ -98,14 +98,14 @@ impl Sequence<'_> {
         let (mut failure, mut lines) = (None, String::new());
         let written = output::write_file(path, self.interrupt, |out| {
             let mut animation = Animation::begin(out, size, count, per_second)?;
-            for view in views {
+            for (i, view) in (1..).zip(views) {
                 let rendering = self.trace(*view).map_err(|error| {
                     failure = Some(error);
                     io::Error::other("no frame")
                 })?;
                 animation.add(&rendering.picture)?;
                 self.progress.step();
-                lines += &self.line(path, &rendering)?;
+                lines += &self.line(i, path, &rendering)?;
             }
             animation.finish()
         });
@@ -140,13 +140,17 @@ impl Sequence<'_> {
         still::trace(&self.scene, &job, &(), self.interrupt)
     }
 
-    /// A line about a frame, with its end.
-    fn line(&self, path: &Path, rendering: &Rendering) -> io::Result<String> {
+    /// A line about a frame, counted from 1, with its end. That nothing is in sight is told in it, or beside it on standard
+    /// error.
+    fn line(&self, number: usize, path: &Path, rendering: &Rendering) -> io::Result<String> {
         let stats = stats(self.job, &self.scene, path, rendering, self.parse);
+        let seen = stats.hits > 0 || self.scene.objects.is_empty();
+        if !seen && self.job.stats != StatsFormat::Text {
+            scene_file::note(&format!("frame {number}: {}", scene_file::NOTHING_IN_SIGHT));
+        }
         Ok(match self.job.stats {
             StatsFormat::None => String::new(),
             StatsFormat::Text => {
-                let seen = stats.hits > 0 || self.scene.objects.is_empty();
                 let nothing = (!seen).then_some(scene_file::NOTHING_IN_SIGHT);
                 let remarks = [nothing, stats.too_fine.as_deref()];
                 let remarks: String = (remarks.into_iter().flatten())
@@ -275,6 +279,14 @@ fn read_views(path: &Path) -> Result<Vec<Camera>, Error> {
         let source = "\n".repeat(i) + line;
         let view =
             parse(&source).map_err(|mistakes| Error::Scene(mistakes.draw(&name, &source)))?;
+        if let Some((column, word)) = beside_view(line) {
+            return Err(Error::Failed(format!(
+                "{}:{}:{column}: '{word}' on a line of a path: expected only 'v x y z', 'at', 'up', 'angle' and 'view'; the \
+                 scene has the size and the background",
+                name::line(&name),
+                i + 1
+            )));
+        }
         if !(view.lights.is_empty() && view.surfaces.is_empty() && view.objects.is_empty()) {
             return Err(Error::Failed(format!(
                 "{}:{}: more than a view: expected only 'v x y z', and for NFF 'at', 'up' and 'angle'",
@@ -303,6 +315,15 @@ fn read_views(path: &Path) -> Result<Vec<Camera>, Error> {
         ))),
         false => Ok(cameras),
     }
+}
+
+/// The first word of a line, with its column from 1, that says something else of a scene than from where it is seen, and
+/// would say it in vain.
+fn beside_view(line: &str) -> Option<(usize, &str)> {
+    let code = line.split('#').next().unwrap_or_default();
+    let word = (code.split_ascii_whitespace()).find(|word| ["resolution", "b"].contains(word))?;
+    let before = word.as_ptr() as usize - line.as_ptr() as usize;
+    Some((line[..before].chars().count() + 1, word))
 }
 
 #[cfg(test)]

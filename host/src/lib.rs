@@ -22,7 +22,7 @@ pub mod stats;
 pub mod summary;
 pub mod trace;
 
-use clap::Parser;
+use clap::FromArgMatches;
 use cli::{Cli, Command};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -35,7 +35,10 @@ use std::process::ExitCode;
 /// Runs a command line of `octray`. Messages go to standard error. The exit code is 0 for success, 1 for failure and 2
 /// for bad usage; after a signal it is 128 and the signal's number: 130 for Ctrl-C, 143 for SIGTERM.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match Cli::try_parse_from(arguments) {
+    let parsed = cli::command()
+        .try_get_matches_from(arguments)
+        .and_then(|matches| Cli::from_arg_matches(&matches));
+    let arguments = match parsed {
         Ok(arguments) => arguments,
         Err(answer) => {
             // Help or an error message; it is not an error if it cannot be printed.

@@ -194,3 +194,43 @@ error: cannot read bad.int: line 3: expected '1 0 RED GREEN BLUE', found '1 0 1 
     );
     assert!(!folder.path().join("b.png").exists());
 }
+
+#[test]
+fn that_only_the_first_picture_of_an_animation_is_converted_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    done(
+        folder,
+        "render a.scene --stats none --frames 3 --orbit 90 -o a.apng",
+    );
+    octray(folder, "convert a.apng b.ppm")
+        .assert()
+        .success()
+        .stderr_eq("note: a.apng is an animation: this is the first of its 3 pictures\n");
+    assert_eq!(read(folder, "b.ppm"), read(folder, "a.ppm"));
+    octray(folder, "diff a.ppm a.apng")
+        .assert()
+        .success()
+        .stderr_eq("note: a.apng is an animation: this is the first of its 3 pictures\n");
+}
+
+#[test]
+fn a_pixel_that_is_no_number_is_refused_with_its_place() {
+    let folder = TempDir::new().unwrap();
+    let folder = folder.path();
+    let mut bytes = b"PF\n2 3\n-1.0\n".to_vec();
+    let numbers = (0..18).map(|i| if i == 10 { f32::NAN } else { 0.5 });
+    bytes.extend(numbers.flat_map(f32::to_le_bytes));
+    fs::write(folder.join("a.pfm"), bytes).unwrap();
+    // The bottom row comes first: it is the fourth pixel, on the right of the middle row.
+    octray(folder, "convert a.pfm b.png")
+        .assert()
+        .code(1)
+        .stderr_eq("error: cannot read a.pfm: the pixel in column 1, row 1 (from 0) is not a number (NaN)\n");
+    fs::write(folder.join("a.int"), "intensity 1 1\n0 0 0.5 nan 1\n").unwrap();
+    octray(folder, "convert a.int b.png")
+        .assert()
+        .code(1)
+        .stderr_eq("error: cannot read a.int: line 2: expected '0 0 RED GREEN BLUE', found '0 0 0.5 nan 1'\n");
+    assert!(!folder.join("b.png").exists());
+}

@@ -230,6 +230,18 @@ path:3:16: error: `x` is not a number
 error: path:2: a view of another kind than the first: expected 'v x y z' on all lines, or 'at', 'up' and 'angle' on all
 
 "#]]);
+    fs::write(
+        &path,
+        "v from 0 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 9 9\n",
+    )
+    .unwrap();
+    octray(folder.path(), "render a.scene --path path")
+        .assert()
+        .code(1)
+        .stderr_eq(str![[r#"
+error: path:1:50: 'resolution' on a line of a path: expected only 'v x y z', 'at', 'up', 'angle' and 'view'; the scene has the size and the background
+
+"#]]);
     fs::write(&path, "# nothing\n").unwrap();
     octray(folder.path(), "render a.scene --path path")
         .assert()
@@ -331,4 +343,38 @@ fn what_a_picture_warns_of_a_frame_warns_of() {
         complaint.starts_with("error: with:1: more than a view"),
         "{complaint}"
     );
+}
+
+#[test]
+fn a_frame_in_which_nothing_is_in_sight_is_told_beside_json() {
+    let folder = folder();
+    fs::write(
+        folder.path().join("away"),
+        "v 0 2 9 at 0 0 0 up 0 1 0 angle 40\nv 0 2 9 at 0 2 20 up 0 1 0 angle 40\n",
+    )
+    .unwrap();
+    for form in ["json", "none"] {
+        let line = format!("render a.scene --path away -o o.png --stats {form}");
+        octray(folder.path(), &line).assert().success().stderr_eq(
+            "note: frame 2: no ray of the camera meets an object: the picture is all background\n",
+        );
+    }
+}
+
+#[test]
+fn up_is_refused_only_where_it_is_parallel_to_the_view() {
+    let folder = folder();
+    let scene = |up: &str| ROUND.replace("up 0 1 0", up).replace("v 0 2 9", "v 0 9 0");
+    for up in ["up 1e-6 1 0", "up 1e-11 1 0"] {
+        fs::write(folder.path().join("above.scene"), scene(up)).unwrap();
+        done(folder.path(), "render above.scene -o near.png");
+        fs::write(folder.path().join("above.scene"), scene("up 1 0 0")).unwrap();
+        done(folder.path(), "render above.scene -o far.png");
+        assert_eq!(
+            read(folder.path(), "near.png"),
+            read(folder.path(), "far.png")
+        );
+    }
+    fs::write(folder.path().join("above.scene"), scene("up 1e-13 1 0")).unwrap();
+    octray(folder.path(), "render above.scene").assert().code(1);
 }

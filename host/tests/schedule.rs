@@ -77,6 +77,29 @@ fn every_combination_is_in_the_json_object() {
 }
 
 #[test]
+fn an_unknown_format_of_charts_is_told_with_the_known_ones() {
+    let folder = TempDir::new().unwrap();
+    for (name, message) in [
+        (
+            "x.jpg",
+            "'.jpg' is no format of charts; expected one of .svg, .png, .ppm, .ras",
+        ),
+        (
+            "x.pfm",
+            "'.pfm' is no format of charts; expected one of .svg, .png, .ppm, .ras",
+        ),
+        ("x", "a chart's name ends in one of .svg, .png, .ppm, .ras"),
+    ] {
+        octray(folder.path(), &format!("schedule a.scene -o {name}"))
+            .assert()
+            .code(2)
+            .stderr_eq(format!(
+                "error: {message}\n\nFor more information, try '--help'.\n"
+            ));
+    }
+}
+
+#[test]
 fn wrong_values_are_bad_usage() {
     for flags in [
         "--processors 0",

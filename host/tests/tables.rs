@@ -120,6 +120,67 @@ fn conditions_and_agreement_are_printed() {
         .stdout_eq(file!["tables/III-VII-IX.txt"].raw());
 }
 
+#[test]
+fn a_page_holds_each_table_with_its_remarks_its_chart_and_its_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "I II III IV V VI VII VIII IX --size 32x32 --contention 0.01";
+    tables(folder.path(), &format!("{line} -o tables.html"))
+        .assert()
+        .success()
+        .stdout_eq("");
+    let page = fs::read_to_string(folder.path().join("tables.html")).unwrap();
+    let text = tables(folder.path(), line).output().unwrap().stdout;
+    let text = String::from_utf8(text).unwrap();
+    let escaped = |text: &str| {
+        (text.replace('&', "&amp;").replace('"', "&quot;"))
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+    };
+    let sections: Vec<&str> = page.split("<section ").skip(1).collect();
+    let printed: Vec<&str> = text.split("Table ").skip(1).collect();
+    assert_eq!((sections.len(), printed.len()), (9, 9));
+    for (section, printed) in sections.into_iter().zip(printed) {
+        let title = printed.lines().next().unwrap();
+        assert!(
+            section.contains(&format!("<h2>Table {}</h2>", escaped(title))),
+            "{title}"
+        );
+        // Every cell and every remark that is printed.
+        let lines = printed.lines().filter(|line| !line.starts_with("|--"));
+        for line in lines.skip(1).filter(|line| !line.is_empty()) {
+            let words: Vec<&str> = match line.strip_prefix("- ") {
+                Some(remark) => vec![remark],
+                None => line.trim_matches('|').split('|').map(str::trim).collect(),
+            };
+            for word in words {
+                assert!(
+                    section.contains(&format!(">{}<", escaped(word))),
+                    "{title}: {word}"
+                );
+            }
+        }
+        let name = title.split_once(':').unwrap().0;
+        let simulated = matches!(name, "VIII" | "IX");
+        assert_eq!(section.contains("<svg"), simulated, "{title}");
+        let more = match simulated {
+            true => " --contention 0.01 --charts charts",
+            false => "",
+        };
+        let command = format!("<code>octray tables {name} --size 32x32{more}</code>");
+        assert!(section.contains(&command), "{title}: {command}");
+    }
+    assert!(!page.contains("http-equiv") && !page.contains("<script") && !page.contains("<link"));
+    tables(folder.path(), "I --json -o tables.html")
+        .assert()
+        .code(2)
+        .stderr_eq(str![[r#"
+error: a page is no JSON: name another file, or leave out --json
+
+For more information, try '--help'.
+
+"#]]);
+}
+
 /// Returns the first text between two texts.
 fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
     let rest = text.split_once(before).unwrap().1;

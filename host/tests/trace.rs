@@ -258,8 +258,18 @@ fn the_drawing_has_a_box_for_each_ray_and_a_circle_for_each_light() {
     assert_eq!(count("rx=\"4\""), sums[0] + sums[1] + sums[2]);
     assert_eq!(count("<circle"), sums[5]);
     assert_eq!(count("#3d4654"), sums[6]);
-    assert_eq!(count("<line"), sums[1] + sums[2]);
+    let left_out = left_out(&tree["traces"][0]["rays"][0]);
+    assert!(left_out > 0);
+    assert_eq!(count("<line"), sums[1] + sums[2] + left_out);
+    assert_eq!(count(": not traced</text>"), left_out);
+    assert_eq!(count("is below the cut-off</title>"), left_out);
     assert!(drawing.ends_with("</svg>\n"));
+}
+
+/// How many rays were not traced.
+fn left_out(ray: &Value) -> u64 {
+    let rays = ray["rays"].as_array().unwrap();
+    ray["not_traced"].as_array().unwrap().len() as u64 + rays.iter().map(left_out).sum::<u64>()
 }
 
 #[test]
@@ -304,6 +314,35 @@ For more information, try '--help'.
         "trace a.scene -p 1,2 --samples 2 --pixels-per-ray 4",
     ] {
         octray(folder.path(), line).assert().code(2).stdout_eq("");
+    }
+}
+
+#[test]
+fn adaptive_samples_and_negative_numbers_are_refused_with_what_was_expected() {
+    let folder = folder();
+    for (option, expected) in [
+        (
+            "--samples adaptive",
+            "error: invalid value 'adaptive' for '--samples <K>': expected a number from 1 to 64: adaptive samples are for \
+             octray render\n",
+        ),
+        (
+            "--samples -1",
+            "error: invalid value '-1' for '--samples <K>': expected a number from 1 to 64\n",
+        ),
+        (
+            "--cut-off -1",
+            "error: invalid value '-1' for '--cut-off <C>': expected a weight from 0 to 1, such as 0.01 or 1/512\n",
+        ),
+        (
+            "--lights -1",
+            "error: invalid value '-1' for '--lights <N>': [..]\n",
+        ),
+    ] {
+        octray(folder.path(), &format!("trace a.scene -p 1,2 {option}"))
+            .assert()
+            .code(2)
+            .stderr_eq(format!("{expected}\nFor more information, try '--help'.\n"));
     }
 }
 

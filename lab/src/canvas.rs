@@ -7,6 +7,7 @@ use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
 use octray_render::output;
 use octray_render::picture::{Format, Picture, RasDepth, Target};
+use octray_scenes::name;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -51,6 +52,37 @@ pub fn picture(figure: &impl Figure) -> Result<Picture, Error> {
 pub fn is_svg(path: &Path) -> bool {
     path.extension()
         .is_some_and(|end| end.eq_ignore_ascii_case("svg"))
+}
+
+/// The formats of charts, by their extensions.
+const CHARTS: [&str; 4] = ["svg", "png", "ppm", "ras"];
+
+/// Checks that a chart can have this name; standard output and pipes get PNG.
+///
+/// # Errors
+/// [`Error::Usage`] with the extensions that are known.
+pub fn check_name(path: &Path) -> Result<(), Error> {
+    let end = path.extension().unwrap_or_default();
+    if is_svg(path) {
+        return Ok(());
+    }
+    let target = Target::new(path.into());
+    let known = CHARTS.iter().any(|known| end.eq_ignore_ascii_case(known));
+    let named = !output::is_stdout(path) && !end.is_empty();
+    match target {
+        Ok(_) if known || !named => Ok(()),
+        Err(why) if output::is_stdout(path) => Err(Error::Usage(why)),
+        _ => {
+            let known = CHARTS.map(|name| format!(".{name}")).join(", ");
+            Err(Error::Usage(match end.is_empty() {
+                true => format!("a chart's name ends in one of {known}"),
+                false => format!(
+                    "'.{}' is no format of charts; expected one of {known}",
+                    name::line(&end.to_string_lossy())
+                ),
+            }))
+        }
+    }
 }
 
 /// Writes the figure as what the file's name says: `.svg`, or a picture.

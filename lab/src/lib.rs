@@ -10,12 +10,13 @@
 //! | [`stability`] | where methods hold, degrade and break |
 //! | [`report`] | all of it on one page |
 //!
-//! [`canvas`] is the drawing surface of charts and maps, [`budget`] bounds the rays that are traced to find something out.
+//! [`canvas`] is the drawing surface of charts and maps, `page` that of pages; [`budget`] bounds the rays that are traced to find something out.
 
 pub mod budget;
 pub mod canvas;
 pub mod chart;
 pub mod measure;
+mod page;
 pub mod plan;
 pub mod report;
 pub mod schedule;

@@ -1,17 +1,17 @@
 //! `octray report`: one page with all results for some scenes.
 //!
-//! Each part is a section of the `page`, in this order: `pictures` in every arithmetic and where they differ; `costs`,
+//! Each part is a section of the page, in this order: `pictures` in every arithmetic and where they differ; `costs`,
 //! the charts of accuracy against cost; `boards`, table III and sizes from the newest record of `octray measure`;
 //! `limits`, the maps of where methods fail.
 
 mod boards;
 mod costs;
 mod limits;
-mod page;
 mod pictures;
 
 use crate::chart::ChartJob;
 use crate::measure::frames;
+use crate::page::{self, Section};
 use octray_prepare::Arith;
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;
@@ -20,9 +20,11 @@ use octray_render::progress::{Bar, Progress};
 use octray_scenes::name::Shown;
 use octray_scenes::reduce::Reduction;
 use octray_stability::method::Method;
-use page::Section;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+
+const TITLE: &str = "What speed costs in accuracy";
+const ABOUT: &str = "The cost of rendering in every arithmetic, where each method fails, and what microcontrollers need.";
 
 /// Everything that `octray report` was asked to do.
 #[derive(Clone, Debug)]
@@ -59,7 +61,7 @@ pub fn run(job: &ReportJob, interrupt: &Interrupt) -> Result<(), Error> {
     sections.push(costs::section(scenes, &job.chart, interrupt)?);
     sections.extend(boards::sections(interrupt)?);
     sections.push(limits::section(job, interrupt)?);
-    let page = page::of(&sections).into_string();
+    let page = page::of(TITLE, ABOUT, &sections).into_string();
     output::write_file(&job.output, interrupt, |out| out.write_all(page.as_bytes()))?;
     let summary = format!("{}: {} bytes\n", Shown(&job.output), page.len());
     output::write_report([&job.output], interrupt, |out| {

@@ -2,13 +2,14 @@
 //!
 //! In the order of the data: [`runs`] traces variants of a [`subject`]. From the counts, [`octrees`] makes
 //! table I (with [`plane`]), [`traced`] II and IV to VII; [`emulated`] takes III from a [`record`] of `octray measure`;
-//! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`];
-//! VIII and IX also become [`chart`]s.
+//! [`shared`] simulates VIII and IX. Each is a draft, which becomes a [`table`] beside the [`thesis`]'s numbers, and a [`text`] or a
+//! `page`; VIII and IX also become [`chart`]s.
 
 pub mod chart;
 pub mod emulated;
 pub mod number;
 pub mod octrees;
+pub(crate) mod page;
 pub mod plane;
 pub mod record;
 pub mod runs;
@@ -28,7 +29,7 @@ use octray_render::output;
 use octray_render::progress::{Bar, Progress};
 use runs::Runs;
 use shared::{Figure, MOST_PROCESSORS, Outcomes, PROCESSORS, Simulation};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 use table::Table;
 use thesis::Thesis;
@@ -50,11 +51,38 @@ pub struct TablesJob {
     pub simulation: Simulation,
     /// Whether to print JSON.
     pub json: bool,
-    /// The file to write; standard output if `None`.
+    /// The file to write, a page if its name ends in `.html`; standard output if `None`.
     pub output: Option<PathBuf>,
     /// The folder for figures 24 and 25.
     pub charts: Option<PathBuf>,
 }
+
+/// In which form tables are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Text,
+    Json,
+    Page,
+}
+
+impl TablesJob {
+    fn form(&self) -> Form {
+        match &self.output {
+            _ if self.json => Form::Json,
+            Some(path) if is_page(path) => Form::Page,
+            _ => Form::Text,
+        }
+    }
+}
+
+/// Whether a file of this name is a page.
+pub fn is_page(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("html"))
+}
+
+/// A table, and its chart as SVG if it has one.
+type Charted = (Table, Option<String>);
 
 /// Makes the tables, and prints them.
 ///
@@ -67,14 +95,16 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
     if let Some(folder) = &job.charts {
         fs::create_dir_all(folder).map_err(|source| Error::write(folder, source))?;
     }
-    let tables = make(job, interrupt)?;
-    let print = |out: &mut dyn io::Write| match job.json {
-        true => {
+    let made = make(job, interrupt)?;
+    let print = |out: &mut dyn io::Write| match job.form() {
+        Form::Json => {
+            let tables: Vec<&Table> = made.iter().map(|(table, _)| table).collect();
             serde_json::to_writer_pretty(&mut *out, &tables)?;
             writeln!(out)
         }
-        false => {
-            let texts: Vec<String> = tables.iter().map(text::of).collect();
+        Form::Page => out.write_all(page::of(&made, job).as_bytes()),
+        Form::Text => {
+            let texts: Vec<String> = made.iter().map(|(table, _)| text::of(table)).collect();
             out.write_all(texts.join("\n").as_bytes())
         }
     };
@@ -85,7 +115,7 @@ pub fn run(job: &TablesJob, interrupt: &Interrupt) -> Result<(), Error> {
 }
 
 /// Makes the tables, and draws the charts of some.
-fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
+fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Charted>, Error> {
     let thesis = Thesis::read(job.thesis.as_deref())?;
     let runs = Runs::new(job.size, job.time, interrupt);
     let progress = Bar::new("tracing");
@@ -101,6 +131,7 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
     let simulation = &job.simulation;
     let mut tables = Vec::new();
     for number in &job.tables {
+        let mut svg = None;
         let draft = match number {
             TableNumber::One => octrees::one(&runs)?,
             TableNumber::Two => traced::two(&runs)?,
@@ -112,39 +143,40 @@ fn make(job: &TablesJob, interrupt: &Interrupt) -> Result<Vec<Table>, Error> {
             TableNumber::Eight => {
                 let outcomes = Outcomes::by_rows(&figures, simulation);
                 let chart = Chart::of_rows(&outcomes, simulation);
-                draw(job, "figure-24", &chart, interrupt)?;
+                svg = draw(job, "figure-24", &chart, interrupt)?;
                 shared::eight(&outcomes, simulation, runs.size.is_none())
             }
             TableNumber::Nine => {
-                if job.charts.is_some() {
+                if job.charts.is_some() || job.form() == Form::Page {
                     let across: Vec<u32> = (1..=MOST_PROCESSORS).collect();
                     let outcomes = Outcomes::by_processors(&figures, &across, simulation);
                     let chart = Chart::of_processors(&outcomes, simulation);
-                    draw(job, "figure-25", &chart, interrupt)?;
+                    svg = draw(job, "figure-25", &chart, interrupt)?;
                 }
                 let outcomes = Outcomes::by_processors(&figures, &PROCESSORS, simulation);
                 shared::nine(&outcomes, &figures, simulation, runs.size.is_none())
             }
         };
-        tables.push(draft.beside(&thesis));
+        tables.push((draft.beside(&thesis), svg));
         progress.step();
     }
     Ok(tables)
 }
 
-/// Draws a chart if charts are requested.
+/// Draws a chart if charts are requested; returns it if a page shows it.
 fn draw(
     job: &TablesJob,
     name: &str,
     chart: &Chart<'_>,
     interrupt: &Interrupt,
-) -> Result<(), Error> {
-    let Some(folder) = &job.charts else {
-        return Ok(());
-    };
-    for ending in ["svg", "png"] {
-        let path = folder.join(format!("{name}.{ending}"));
-        canvas::write_figure(&path, chart, interrupt)?;
+) -> Result<Option<String>, Error> {
+    if let Some(folder) = &job.charts {
+        for ending in ["svg", "png"] {
+            let path = folder.join(format!("{name}.{ending}"));
+            canvas::write_figure(&path, chart, interrupt)?;
+        }
     }
-    Ok(())
+    (job.form() == Form::Page)
+        .then(|| canvas::svg(chart))
+        .transpose()
 }

@@ -80,7 +80,7 @@ pub enum Fault {
     /// An up direction of length 0.
     #[error("up direction of length 0")]
     ZeroUp,
-    /// An up direction within a millionth of a radian of the view.
+    /// An up direction within [`NEARLY_PARALLEL`] of the view.
     #[error("up direction parallel to the view")]
     UpParallel,
     /// An angle outside (0, 180).
@@ -157,6 +157,10 @@ pub fn scene(scene: &Scene) -> Result<(), Broken> {
     Ok(())
 }
 
+/// The least angle between the view and `up`, in radians: at a smaller one, rounding in `f64` turns the picture by more
+/// than a ten thousandth of a radian.
+pub const NEARLY_PARALLEL: f64 = 1e-12;
+
 /// Checks a camera.
 ///
 /// # Errors
@@ -180,7 +184,7 @@ pub fn camera(camera: &Camera) -> Result<(), Fault> {
             let view = plane::unit(plane::half_difference(at, from)).ok_or(Fault::FromIsAt)?;
             let up = plane::unit(*up).ok_or(Fault::ZeroUp)?;
             ensure(
-                plane::length(point::cross(view, up)) > 1e-6,
+                plane::length(point::cross(view, up)) > NEARLY_PARALLEL,
                 Fault::UpParallel,
             )?;
             ensure(*angle > 0.0 && *angle < 180.0, Fault::Angle)

@@ -13,7 +13,7 @@ mod ras;
 
 pub use self::png::Animation;
 pub use dither::Dither;
-pub use format::{Format, Target, decode, read};
+pub use format::{Format, Target, decode, read, read_first};
 pub use ras::RasDepth;
 
 use crate::error::Error;

@@ -82,11 +82,30 @@ impl FramesArgs {
     }
 }
 
-/// Parses a finite number of degrees.
+/// The most degrees: a thousand turns. Far beyond, a step between two numbers is a turn.
+const MOST_DEGREES: f64 = 360_000.0;
+
+/// Parses a number of degrees.
 fn degrees(text: &str) -> Result<f64, String> {
-    let number = text
-        .parse()
-        .ok()
-        .filter(|degrees: &f64| degrees.is_finite());
-    number.ok_or_else(|| "expected a number of degrees such as 360 or -45.5".into())
+    let number = (text.parse().ok()).filter(|degrees: &f64| degrees.abs() <= MOST_DEGREES);
+    number.ok_or_else(|| {
+        format!(
+            "expected a number of degrees such as 360 or -45.5, from -{MOST_DEGREES} to {MOST_DEGREES}"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_orbit_is_endless() {
+        assert_eq!(degrees("-45.5"), Ok(-45.5));
+        assert_eq!(degrees("360000"), Ok(360_000.0));
+        for wrong in ["1e300", "-360001", "inf", "nan", "", "x"] {
+            let message = degrees(wrong).unwrap_err();
+            assert!(message.ends_with("from -360000 to 360000"), "{message}");
+        }
+    }
 }

@@ -148,6 +148,20 @@ pub fn samples(text: &str) -> Result<Samples, String> {
         })
 }
 
+/// Parses `K` where there are no adaptive samples.
+///
+/// # Errors
+/// States what was expected.
+pub fn uniform_samples(text: &str) -> Result<u32, String> {
+    match samples(text) {
+        Ok(Samples::Uniform(samples)) => Ok(samples),
+        Ok(Samples::Adaptive(_)) => {
+            Err("expected a number from 1 to 64: adaptive samples are for octray render".into())
+        }
+        Err(_) => Err("expected a number from 1 to 64".into()),
+    }
+}
+
 /// Parses `x,y`, the column and the row of a pixel.
 ///
 /// # Errors
@@ -250,6 +264,17 @@ mod tests {
             "adaptive2",
         ] {
             assert!(samples(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn adaptive_samples_are_told_apart_where_there_are_none() {
+        assert_eq!(uniform_samples("64"), Ok(64));
+        let adaptive = uniform_samples("adaptive:2").unwrap_err();
+        assert!(adaptive.contains("are for octray render"), "{adaptive}");
+        for wrong in ["0", "65", "x", "-1", "adaptive:0"] {
+            let expected = "expected a number from 1 to 64";
+            assert_eq!(uniform_samples(wrong), Err(expected.into()), "{wrong}");
         }
     }
 

@@ -1,6 +1,6 @@
 //! A tree as a drawing: the camera's ray on top, the transmitted ray to the left, the reflected one to the right.
 
-use super::node::{Light, Node};
+use super::node::{FOLLOWERS, Light, Node, NotTraced};
 use super::{Report, Trace, pair};
 use octray_scenes::name;
 use std::fmt::{self, Write};
@@ -16,6 +16,9 @@ const FALL: f64 = 46.0;
 const LIGHT: f64 = 16.0;
 const MARGIN: f64 = 16.0;
 const HEAD: f64 = 62.0;
+
+/// How far down rays go that are not traced, with their names.
+const STUB: (f64, f64) = (20.0, 32.0);
 
 /// Lights in a row of a box.
 const ACROSS: usize = 9;
@@ -146,6 +149,10 @@ fn draw(out: &mut String, placed: &Placed<'_>) -> Result<f64, fmt::Error> {
         )?;
         lowest = lowest.max(draw(out, below)?);
     }
+    for ray in &node.not_traced {
+        draw_not_traced(out, ray, *x, y + height)?;
+        lowest = lowest.max(y + height + STUB.1);
+    }
     let colour = |differs| if differs { OTHER } else { SAME };
     let line = colour(pair::rays_differ(*pair));
     let (left, thick) = (x - WIDTH / 2.0, if line == OTHER { 3 } else { 1 });
@@ -185,6 +192,23 @@ fn draw(out: &mut String, placed: &Placed<'_>) -> Result<f64, fmt::Error> {
         draw_light(out, light, colour(differs), x, y)?;
     }
     Ok(lowest)
+}
+
+/// A ray that is not traced: a thin line that ends below the box, at the side where the ray would go; pointing at it tells
+/// why.
+fn draw_not_traced(out: &mut String, ray: &NotTraced, middle: f64, y: f64) -> fmt::Result {
+    let aside = match ray.kind == FOLLOWERS[0] {
+        true => -WIDTH / 4.0,
+        false => WIDTH / 4.0,
+    };
+    let (kind, reason, x) = (ray.kind, ray.reason(), middle + aside);
+    let (end, below) = (y + STUB.0, y + STUB.1 - 3.0);
+    writeln!(
+        out,
+        "<g><title>{kind}: {reason}</title><line x1=\"{x}\" y1=\"{y}\" x2=\"{x}\" y2=\"{end}\" stroke=\"{SAME}\" \
+         stroke-width=\"0.7\" stroke-dasharray=\"2 2\"/><text x=\"{x}\" y=\"{below}\" font-size=\"8\" \
+         text-anchor=\"middle\" fill=\"{SAME}\">{kind}: not traced</text></g>"
+    )
 }
 
 /// A light: yellow if it shines, dark if it is blocked; pointing at it tells by what.

@@ -77,16 +77,13 @@ impl Cheaper {
     pub(super) fn text(&self) -> String {
         let bytes = |more: Option<i64>, what: &str| {
             let more = more.filter(|more| *more != 0)?;
-            let sign = if more < 0 { '−' } else { '+' };
+            let sign = if more < 0 { '-' } else { '+' };
             Some(format!(
                 "{sign}{} bytes of {what}",
                 thousands(more.unsigned_abs())
             ))
         };
-        let percent = |more: f64| {
-            let sign = if more < 0.0 { '−' } else { '+' };
-            format!("{sign}{:.1} % instructions", 100.0 * more.abs())
-        };
+        let percent = |more: f64| format!("{:+.1} % instructions", 100.0 * more);
         let parts = [
             self.psnr
                 .map(|psnr| decibels(Some(psnr).filter(|psnr| psnr.is_finite()))),

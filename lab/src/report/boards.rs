@@ -1,11 +1,10 @@
 //! Microcontrollers, from the newest record of `octray measure` that comes with octray: table III, and sizes.
 
-use super::page::{self, Section, table};
-use crate::tables::emulated;
+use crate::page::{self, Section, table};
 use crate::tables::record::{self, RecordRow};
 use crate::tables::runs::Runs;
-use crate::tables::text;
 use crate::tables::thesis::Thesis;
+use crate::tables::{self, emulated};
 use maud::html;
 use octray_render::counts::thousands;
 use octray_render::error::Error;
@@ -27,8 +26,7 @@ pub(super) fn sections(interrupt: &Interrupt) -> Result<Vec<Section>, Error> {
         title: "Table III, today: without and with a floating-point unit".into(),
         body: html! {
             (page::chart(record::CHART, "instructions per pixel without and with a floating-point unit"))
-            pre { (text::grid(&three)) }
-            ul { @for note in text::notes(&three) { li { (note) } } }
+            (tables::page::body(&three))
         },
         commands: vec![
             "octray tables III".into(),

@@ -1,12 +1,12 @@
 //! Accuracy against cost: the charts, and their choices.
 
-use super::page::{self, Section};
 use crate::canvas;
 use crate::chart::cost::Meter;
 use crate::chart::figure::Chart;
 use crate::chart::point::Panel;
 use crate::chart::{self, ChartJob};
 use crate::measure::frames::NamedScene;
+use crate::page::{self, Section};
 use maud::{Markup, html};
 use octray_render::error::Error;
 use octray_render::interrupt::Interrupt;

@@ -1,8 +1,8 @@
 //! Where methods fail: a map of each, and the limits.
 
 use super::ReportJob;
-use super::page::{self, Section};
 use crate::canvas;
+use crate::page::{self, Section};
 use crate::stability::map::Map;
 use crate::stability::queries::Queries;
 use crate::stability::{overview, table};

@@ -1,9 +1,9 @@
 //! A scene in every arithmetic, each beside a map of the differences from the picture in 64-bit floats.
 
 use super::ReportJob;
-use super::page::{self, Section, quoted};
 use crate::measure::frames::NamedScene;
 use crate::measure::reference;
+use crate::page::{self, Section, quoted};
 use maud::{Markup, html};
 use octray_prepare::{Arith, RenderSettings};
 use octray_render::counts::thousands;

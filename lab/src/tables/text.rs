@@ -23,8 +23,11 @@ pub fn notes(table: &Table) -> Vec<String> {
         .collect()
 }
 
-/// Formats only the lines and columns.
-pub fn grid(table: &Table) -> String {
+/// The number of columns with words, which come first.
+pub const WORDS: usize = 2;
+
+/// Returns the headings of the columns, and the cells of each line.
+pub fn cells(table: &Table) -> (Vec<String>, Vec<Vec<String>>) {
     let mut columns = vec![
         Column {
             heading: "scene".into(),
@@ -35,18 +38,25 @@ pub fn grid(table: &Table) -> String {
             cell: Box::new(|line| line.variant.clone()),
         },
     ];
-    let words = columns.len();
     for (i, quantity) in table.quantities.iter().enumerate() {
         columns.extend(columns_of(table, i, quantity));
     }
+    let cells = (table.lines.iter())
+        .map(|line| columns.iter().map(|column| (column.cell)(line)).collect())
+        .collect();
+    let headings = columns.into_iter().map(|column| column.heading).collect();
+    (headings, cells)
+}
+
+/// Formats only the lines and columns.
+fn grid(table: &Table) -> String {
+    let (headings, lines) = cells(table);
     let mut drawn = comfy_table::Table::new();
     drawn
         .load_style(presets::ASCII_MARKDOWN)
-        .set_header(columns.iter().map(|column| &column.heading));
-    for line in &table.lines {
-        drawn.add_row(columns.iter().map(|column| (column.cell)(line)));
-    }
-    for column in drawn.column_iter_mut().skip(words) {
+        .set_header(headings)
+        .add_rows(lines);
+    for column in drawn.column_iter_mut().skip(WORDS) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     drawn.to_string()

@@ -32,7 +32,8 @@ impl fmt::Display for TooFine {
         let [value, limit] = [self.value, self.limit].map(|x| match 1.0 / x {
             n if n < 10.0 => format!("1/{n:.1}"),
             n if n < 1e9 => format!("1/{n:.0}"),
-            n if n < 1e15 => format!("1/{n:.0e}"),
+            n if n.is_finite() => format!("1/{n:.0e}"),
+            _ if x > 0.0 => "below 1/1e308".into(),
             _ => "0".into(),
         });
         write!(f, "{format} resolves {limit}, but {what} is {value}")

@@ -11,6 +11,20 @@ const KEYWORDS: &str =
 pub(super) fn describe(kind: &MistakeKind, found: &str) -> (String, String) {
     let owned = |title: &str, label: &str| (title.to_owned(), label.to_owned());
     match kind {
+        // Such a space looks like one, and joins what it parts.
+        MistakeKind::UnknownKeyword | MistakeKind::NotANumber | MistakeKind::StrayNumber
+            if let Some(space) = foreign_space(found) =>
+        {
+            let name = match space {
+                '\u{a0}' => "a no-break space",
+                _ => "a space",
+            };
+            let code = u32::from(space);
+            (
+                format!("`{found}` holds {name} (U+{code:04X})"),
+                "expected blanks, tabs or line ends between words".to_owned(),
+            )
+        }
         MistakeKind::Empty => owned(
             "the file holds no scene",
             "expected at least a viewpoint: `v x y z`",
@@ -216,6 +230,11 @@ pub(crate) fn only_the_first() -> String {
 pub(crate) fn more_warnings(more: usize) -> String {
     let plural = if more == 1 { "" } else { "s" };
     format!("{more} more warning{plural}")
+}
+
+/// The first character that looks like a space and separates no words.
+fn foreign_space(text: &str) -> Option<char> {
+    (text.chars()).find(|c| c.is_whitespace() && !c.is_ascii())
 }
 
 fn numbers(count: usize) -> String {

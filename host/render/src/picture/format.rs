@@ -150,8 +150,16 @@ fn encode(
 /// # Errors
 /// [`Error::Read`] when the file cannot be read or is no such picture.
 pub fn read(path: &Path) -> Result<Picture, Error> {
+    read_first(path).map(|(picture, _)| picture)
+}
+
+/// The same of what may be an animation: its first picture, and how many it has.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_first(path: &Path) -> Result<(Picture, u32), Error> {
     input::stream(path)
-        .and_then(|file| decode(&mut BufReader::new(file)))
+        .and_then(|file| decode_first(&mut BufReader::new(file)))
         .map_err(|source| match source.kind() {
             ErrorKind::UnexpectedEof => Error::read(path, malformed("the picture is cut short")),
             _ => Error::read(path, source),
@@ -163,8 +171,18 @@ pub fn read(path: &Path) -> Result<Picture, Error> {
 /// # Errors
 /// When it cannot be read or is no such picture.
 pub fn decode(input: &mut dyn BufRead) -> io::Result<Picture> {
+    decode_first(input).map(|(picture, _)| picture)
+}
+
+fn decode_first(input: &mut dyn BufRead) -> io::Result<(Picture, u32)> {
+    if input.fill_buf()?.starts_with(b"\x89PNG") {
+        return png::read(input);
+    }
+    decode_still(input).map(|picture| (picture, 1))
+}
+
+fn decode_still(input: &mut dyn BufRead) -> io::Result<Picture> {
     match input.fill_buf()? {
-        [0x89, b'P', b'N', b'G', ..] => png::read(input),
         [b'P', b'6', ..] => ppm::read(input),
         [b'P', b'F' | b'f', ..] => pfm::read(input),
         [0x59, 0xa6, 0x6a, 0x95, ..] => ras::read(input),

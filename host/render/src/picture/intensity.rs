@@ -18,6 +18,9 @@ use std::io::{self, BufRead, Read, Write};
 /// The word that begins a file.
 pub(super) const MAGIC: &[u8] = b"intensity";
 
+/// The first line.
+const FORM: &str = "'intensity COLUMNS ROWS' of 1 to 4294967296 pixels";
+
 /// No line is longer.
 const LONGEST_LINE: u64 = 1024;
 
@@ -42,8 +45,8 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
         .strip_prefix("intensity")
         .map(|rest| format!("{}\n", rest.trim()))
         .unwrap_or_default();
-    let (width, height) = netpbm::size(&mut rest.as_bytes())
-        .map_err(|_| lines.expected("'intensity COLUMNS ROWS'", &header))?;
+    let (width, height) =
+        netpbm::size(&mut rest.as_bytes()).map_err(|_| lines.expected(FORM, &header))?;
     let mut intensities = Vec::new();
     for y in 0..height {
         for x in 0..width {
@@ -66,7 +69,7 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
 fn pixel(line: &str, (x, y): (u32, u32)) -> Option<Intensity> {
     let mut words = line.split_ascii_whitespace();
     let place = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
-    let mut channel = || words.next()?.parse().ok();
+    let mut channel = || (words.next()?.parse().ok()).filter(|number: &f32| !number.is_nan());
     let pixel = [channel()?, channel()?, channel()?];
     (place == (x, y) && words.next().is_none()).then_some(pixel)
 }
@@ -142,11 +145,19 @@ mod tests {
         let cases = [
             (
                 "intensity 2\n",
-                "line 1: expected 'intensity COLUMNS ROWS', found 'intensity 2'",
+                "line 1: expected 'intensity COLUMNS ROWS' of 1 to 4294967296 pixels, found 'intensity 2'",
             ),
             (
                 "intensity 0 3\n",
-                "line 1: expected 'intensity COLUMNS ROWS', found 'intensity 0 3'",
+                "line 1: expected 'intensity COLUMNS ROWS' of 1 to 4294967296 pixels, found 'intensity 0 3'",
+            ),
+            (
+                "intensity 99999 99999\n",
+                "line 1: expected 'intensity COLUMNS ROWS' of 1 to 4294967296 pixels, found 'intensity 99999 99999'",
+            ),
+            (
+                "intensity 1 1\n0 0 1 nan 1\n",
+                "line 2: expected '0 0 RED GREEN BLUE', found '0 0 1 nan 1'",
             ),
             (
                 "intensity 2 1\n0 0 1 1 1\n0 1 1 1 1\n",

@@ -50,9 +50,9 @@ pub(super) fn size(input: &mut dyn BufRead) -> io::Result<(u32, u32)> {
     let size = (number(input, "width")?, number(input, "height")?);
     match size {
         (0, _) | (_, 0) => Err(malformed("the picture has no pixels")),
-        (width, height) if u64::from(width) * u64::from(height) > MOST_PIXELS => {
-            Err(malformed("the picture is too large"))
-        }
+        (width, height) if u64::from(width) * u64::from(height) > MOST_PIXELS => Err(malformed(
+            format!("{width} x {height} pixels are more than {MOST_PIXELS}"),
+        )),
         _ => Ok(size),
     }
 }

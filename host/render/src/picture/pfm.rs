@@ -42,12 +42,19 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
         _ => return Err(malformed(format!("the scale in the header is {scale}"))),
     };
     let mut upwards: Vec<Intensity> = Vec::new();
-    for _ in 0..u64::from(width) * u64::from(height) {
+    for pixel in 0..u64::from(width) * u64::from(height) {
         let mut samples = [0.0; 3];
         for sample in &mut samples[..channels] {
             let mut bytes = [0; 4];
             input.read_exact(&mut bytes)?;
             *sample = float(bytes);
+            if sample.is_nan() {
+                let (row, column) = (pixel / u64::from(width), pixel % u64::from(width));
+                let row = u64::from(height) - 1 - row;
+                return Err(malformed(format!(
+                    "the pixel in column {column}, row {row} (from 0) is not a number (NaN)"
+                )));
+            }
         }
         if channels == 1 {
             samples = [samples[0]; 3];

@@ -79,12 +79,14 @@ impl<'a> Animation<'a> {
 const HEADER: usize = 33;
 const BESIDE_PIXELS: u64 = 1 << 26;
 
-/// Read any PNG: 16 bits are cut to 8, grey is spread over the channels, alpha is dropped.
-pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
+/// Read any PNG: 16 bits are cut to 8, grey is spread over the channels, alpha is dropped. Of an animation it is the first
+/// picture; tells how many there are.
+pub(super) fn read(input: &mut dyn BufRead) -> io::Result<(Picture, u32)> {
     // The decoder wants to seek, so it gets the file in memory.
     let bytes = whole(input)?;
     let mut reader = decoder(&bytes)?;
     let (width, height) = reader.info().size();
+    let count = (reader.info().animation_control()).map_or(1, |animation| animation.num_frames);
     let (colour, _) = reader.output_color_type();
     let mut levels = Vec::new();
     if reader.info().interlaced {
@@ -108,7 +110,9 @@ pub(super) fn read(input: &mut dyn BufRead) -> io::Result<Picture> {
         }
     }
     reader.finish().map_err(refused)?;
-    Picture::from_levels(width, height, levels).ok_or_else(|| malformed("the picture is cut short"))
+    Picture::from_levels(width, height, levels)
+        .map(|picture| (picture, count))
+        .ok_or_else(|| malformed("the picture is cut short"))
 }
 
 /// Reads the whole file, but no more than a picture of the size in its header can take.
@@ -191,7 +195,7 @@ mod tests {
         }
         assert!(animation.add(&picture(0)).is_err());
         animation.finish().unwrap();
-        assert_eq!(read(&mut &*bytes).unwrap(), picture(10));
+        assert_eq!(read(&mut &*bytes).unwrap(), (picture(10), 3));
         let mut reader = decoder(&bytes).unwrap();
         let frames = reader.info().animation_control().unwrap();
         assert_eq!((frames.num_frames, frames.num_plays), (3, 0));
@@ -210,6 +214,7 @@ mod tests {
         let picture = Picture::from_levels(1, 1, vec![[1, 2, 3]]).unwrap();
         write(&picture, Compression::Fast, &mut bytes).unwrap();
         let endless = Read::chain(&*bytes, io::repeat(0));
-        assert_eq!(read(&mut io::BufReader::new(endless)).unwrap(), picture);
+        let read = read(&mut io::BufReader::new(endless)).unwrap();
+        assert_eq!(read, (picture, 1));
     }
 }

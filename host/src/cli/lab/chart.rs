@@ -10,7 +10,6 @@ use octray_lab::chart::point::{Against, Wishes};
 use octray_lab::chart::setting::Grid;
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, Samples, TreeKind};
 use octray_render::error::Error;
-use octray_render::picture::Target;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -176,12 +175,9 @@ impl ChartArgs {
     fn check_files(&self) -> Result<(), Error> {
         let results = [&self.output, &self.csv, &self.json];
         files::distinct(&self.scenes, results.into_iter().flatten())?;
-        if let Some(path) = &self.output
-            && !canvas::is_svg(path)
-        {
-            Target::new(path.clone()).map_err(Error::Usage)?;
-        }
-        Ok(())
+        self.output
+            .iter()
+            .try_for_each(|path| canvas::check_name(path))
     }
 }
 

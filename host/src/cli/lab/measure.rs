@@ -11,7 +11,6 @@ use octray_lab::measure::ratio::CORES;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, FirmwareTree, PixelsPerRay, RenderSettings};
 use octray_render::error::Error;
-use octray_render::picture::Target;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -87,11 +86,9 @@ impl MeasureArgs {
     pub fn job(self) -> Result<MeasureJob, Error> {
         let results = [&self.json, &self.csv, &self.chart];
         files::distinct(&self.scenes, results.into_iter().flatten())?;
-        if let Some(path) = &self.chart
-            && !canvas::is_svg(path)
-        {
-            Target::new(path.clone()).map_err(Error::Usage)?;
-        }
+        self.chart
+            .iter()
+            .try_for_each(|path| canvas::check_name(path))?;
         let boards: Vec<&Board> = match &*self.targets {
             [] => BOARDS.iter().collect(),
             named => lists::once(named.iter().flatten().copied(), |a, b| a.name == b.name),

@@ -9,7 +9,6 @@ use octray_lab::simulate::Machine;
 use octray_prepare::choice::Choice;
 use octray_prepare::{Arith, PixelsPerRay, RenderSettings, TreeKind, TreeSettings};
 use octray_render::error::Error;
-use octray_render::picture::Target;
 use octray_render::scheduler::Policy;
 use octray_render::tile::TileSize;
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -45,7 +44,7 @@ pub struct ScheduleArgs {
     #[arg(long, value_name = "N", value_parser = value::choice::<PixelsPerRay>(), default_value = PixelsPerRay::default().name())]
     pixels_per_ray: PixelsPerRay,
     /// Trace K x K rays per pixel
-    #[arg(long, value_name = "K", default_value_t = 1, value_parser = value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "K", default_value = "1", value_parser = value::uniform_samples)]
     samples: u32,
     /// Maximum number of bounces of a ray
     #[arg(long, value_name = "D", default_value_t = RenderSettings::DEFAULT.max_depth, value_parser = value_parser!(u32).range(..=i64::from(RenderSettings::DEEPEST)))]
@@ -95,9 +94,9 @@ impl ScheduleArgs {
         let usage = |text: &str| Err(Error::Usage(text.into()));
         let results = [&self.output, &self.csv];
         files::distinct([&self.scene], results.into_iter().flatten())?;
-        if let Some(path) = self.output.iter().find(|path| !canvas::is_svg(path)) {
-            Target::new(path.clone()).map_err(Error::Usage)?;
-        }
+        self.output
+            .iter()
+            .try_for_each(|path| canvas::check_name(path))?;
         let block = self.pixels_per_ray.side();
         let fits = |side: &NonZeroU32| side.get().is_multiple_of(block);
         let strips = self.tile_rows.0.into_iter().filter(fits);

@@ -3,9 +3,9 @@
 use crate::cli::{files, value};
 use clap::Args;
 use octray_lab::simulate::Machine;
-use octray_lab::tables::TablesJob;
 use octray_lab::tables::number::TableNumber;
 use octray_lab::tables::shared::{COHERENCE, Simulation};
+use octray_lab::tables::{self, TablesJob};
 use octray_prepare::choice::Choice;
 use octray_render::error::Error;
 use std::num::NonZeroU32;
@@ -23,7 +23,7 @@ pub struct TablesArgs {
     /// Print JSON instead of tables to read
     #[arg(long)]
     json: bool,
-    /// Write to this file instead of standard output
+    /// Write to this file instead of standard output: a page with charts if its name ends in .html
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write figures 24 and 25 into this folder, as SVG and PNG
@@ -65,10 +65,16 @@ impl TablesArgs {
     /// Returns the job.
     ///
     /// # Errors
-    /// [`Error::Usage`] if charts are requested without their tables, or the output would replace an input.
+    /// [`Error::Usage`] if charts are requested without their tables, JSON for a page, or if the output would replace an
+    /// input.
     pub fn job(self) -> Result<TablesJob, Error> {
         let inputs = [&self.thesis, &self.record];
         files::distinct(inputs.into_iter().flatten(), &self.output)?;
+        if self.json && self.output.as_deref().is_some_and(tables::is_page) {
+            return Err(Error::Usage(
+                "a page is no JSON: name another file, or leave out --json".into(),
+            ));
+        }
         let mut tables = self.tables;
         if tables.is_empty() {
             tables = TableNumber::all();

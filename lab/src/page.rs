@@ -7,23 +7,23 @@ use octray_render::error::Error;
 use octray_render::picture::Picture;
 
 /// The style sheet.
-const STYLE: &str = include_str!("style.css");
+const STYLE: &str = include_str!("page.css");
 
 /// A part of the page.
 #[derive(Clone, Debug)]
-pub(super) struct Section {
+pub(crate) struct Section {
     /// Its anchor within the page.
-    pub(super) id: String,
+    pub(crate) id: String,
     /// Its heading.
-    pub(super) title: String,
+    pub(crate) title: String,
     /// What it shows.
-    pub(super) body: Markup,
+    pub(crate) body: Markup,
     /// The commands that reproduce it.
-    pub(super) commands: Vec<String>,
+    pub(crate) commands: Vec<String>,
 }
 
-/// Returns the whole page.
-pub(super) fn of(sections: &[Section]) -> Markup {
+/// Returns the whole page: a title, what it is about in a few sentences, and its parts.
+pub(crate) fn of(title: &str, about: &str, sections: &[Section]) -> Markup {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -31,15 +31,14 @@ pub(super) fn of(sections: &[Section]) -> Markup {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
-                title { "octray: what speed costs in accuracy" }
+                title { "octray: " (title) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header {
-                    h1 { "What speed costs in accuracy" }
+                    h1 { (title) }
                     p {
-                        "The cost of rendering in every arithmetic, where each method fails, and what microcontrollers "
-                        "need. Made by octray " (env!("CARGO_PKG_VERSION")) "; each part ends with the command "
+                        (about) " Made by octray " (env!("CARGO_PKG_VERSION")) "; each part ends with the command "
                         "that reproduces it."
                     }
                     nav {
@@ -63,7 +62,7 @@ pub(super) fn of(sections: &[Section]) -> Markup {
 }
 
 /// Returns commands as they are typed.
-pub(super) fn commands(commands: &[String]) -> Markup {
+pub(crate) fn commands(commands: &[String]) -> Markup {
     html! {
         @if !commands.is_empty() {
             pre.command { code { (commands.join("\n")) } }
@@ -75,7 +74,7 @@ pub(super) fn commands(commands: &[String]) -> Markup {
 ///
 /// # Errors
 /// If it cannot be encoded.
-pub(super) fn image(picture: &Picture, says: &str) -> Result<Markup, Error> {
+pub(crate) fn image(picture: &Picture, says: &str) -> Result<Markup, Error> {
     let png = (picture.png()).map_err(|cause| Error::Failed(format!("no PNG: {cause}")))?;
     let data = BASE64_STANDARD.encode(png);
     let (width, height) = picture.size();
@@ -85,19 +84,19 @@ pub(super) fn image(picture: &Picture, says: &str) -> Result<Markup, Error> {
 }
 
 /// Returns a chart that was drawn as SVG.
-pub(super) fn chart(svg: &str, says: &str) -> Markup {
+pub(crate) fn chart(svg: &str, says: &str) -> Markup {
     html! {
         figure.chart role="img" aria-label=(says) { (PreEscaped(svg)) }
     }
 }
 
 /// Returns a table whose first columns hold words, aligned left, and the others numbers, aligned right.
-pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup {
+pub(crate) fn table(head: &[impl AsRef<str>], words: usize, rows: &[Vec<String>]) -> Markup {
     let class = |column: usize| (column >= words).then_some("number");
     html! {
         div.wide {
             table {
-                thead { tr { @for (i, name) in head.iter().enumerate() { th scope="col" class=[class(i)] { (name) } } } }
+                thead { tr { @for (i, name) in head.iter().enumerate() { th scope="col" class=[class(i)] { (name.as_ref()) } } } }
                 tbody {
                     @for row in rows {
                         tr { @for (i, cell) in row.iter().enumerate() { td class=[class(i)] { (cell) } } }
@@ -109,7 +108,7 @@ pub(super) fn table(head: &[&str], words: usize, rows: &[Vec<String>]) -> Markup
 }
 
 /// Quotes a path for a shell.
-pub(super) fn quoted(path: &std::path::Path) -> String {
+pub(crate) fn quoted(path: &std::path::Path) -> String {
     crate::chart::point::quoted(&path.to_string_lossy())
 }
 
@@ -124,7 +123,7 @@ mod tests {
             body: html! { p { "b" } },
             commands: vec!["octray x".into(), "octray y".into()],
         };
-        of(&[section]).into_string()
+        of("A title", "About it.", &[section]).into_string()
     }
 
     #[test]
