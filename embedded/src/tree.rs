@@ -102,7 +102,6 @@ impl<const OBJECTS: usize, const WORDS: usize> DeviceTree<OBJECTS, WORDS> {
     /// The tree, to be walked.
     pub fn tree(&self) -> CompactBvh8<'_> {
         // The words are a tree's, so it cannot fail; the tree of nothing has no words.
-        CompactBvh8::new(&self.words, &self.links, self.tick)
-            .unwrap_or_else(|_| CompactBvh8::NOTHING)
+        CompactBvh8::new(&self.words, &self.links, self.tick).unwrap_or(CompactBvh8::NOTHING)
     }
 }
