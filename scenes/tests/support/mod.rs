@@ -167,6 +167,7 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
                     objects: vec![],
                     vertices: vec![],
                     normals: vec![],
+                    room: None,
                 };
                 for (index, (surface, parts)) in groups.into_iter().enumerate() {
                     scene.surfaces.push(surface);
