@@ -2,6 +2,7 @@ use octray_prepare::{Arith, FirmwareTree};
 
 fn main() {
     octray_prepare::bake::file("ball.scene")
+        .size(64, 48)
         .arith(Arith::I16F16)
         // The program builds the tree, as objects move: the ball up and down, within this room.
         .tree(FirmwareTree::DEVICE)

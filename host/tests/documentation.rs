@@ -44,6 +44,7 @@ pages! {
     accelerators: "docs/accelerators.md",
     accuracy: "docs/accuracy.md",
     arithmetic: "docs/arithmetic.md",
+    firmware: "docs/firmware.md",
     guide: "docs/guide.md",
     measurements: "docs/measurements.md",
     parallel: "docs/parallel.md",
