@@ -16,7 +16,7 @@ use octray_core::trace::{QueuedRay, TraceScalar, Tracer, Workspace};
 /// The memory to render with, whose size is known when the program is compiled: `RAYS` rays that wait, the stack `K` of
 /// the tree's walk, `LIGHTS` places of the shadow cache, and a strip of `PIXELS` pixels.
 ///
-/// [`scene!`](crate::scene) names the type that suits a baked scene. For a scene that is made on the device, take
+/// [`scene!`](macro@crate::scene) names the type that suits a baked scene. For a scene that is made on the device, take
 /// [`required_rays`](octray_core::trace::required_rays) for `RAYS`, and a few rows for `PIXELS`.
 ///
 /// ```
