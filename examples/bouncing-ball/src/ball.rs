@@ -54,7 +54,10 @@ impl Bounce {
     /// The scene with the ball where it is now.
     fn scene(spheres: &[Sphere<S>]) -> Scene<'_, S, FEATURES> {
         Scene {
-            shapes: Shapes { spheres, ..SCENE.shapes },
+            shapes: Shapes {
+                spheres,
+                ..SCENE.shapes
+            },
             ..SCENE
         }
     }

@@ -1,30 +1,48 @@
-//! On a PC: a simulated panel, and its pictures as an animation.
+//! On a PC: a simulated panel of 16 bits per pixel, and its pictures as an animation.
 
 use crate::ball::{Bounce, baked};
-use embedded_graphics::geometry::Size;
+use embedded_graphics::framebuffer::{Framebuffer, buffer_size};
+use embedded_graphics::geometry::Point;
+use embedded_graphics::image::GetPixel;
+use embedded_graphics::pixelcolor::raw::{LittleEndian, RawU16};
 use embedded_graphics::pixelcolor::{Rgb565, Rgb888, RgbColor};
-use embedded_graphics_simulator::SimulatorDisplay;
 use octray_embedded::dither::Dithered;
 use octray_embedded::hash::HashPanel;
-use octray_render::picture::{Animation, Picture};
 use std::error::Error;
 use std::fs::File;
 
-/// Until the ball is back where it was.
+const WIDTH: usize = baked::WIDTH as usize;
+const HEIGHT: usize = baked::HEIGHT as usize;
+/// Twice until the ball is back where it was.
 const PICTURES: u32 = 26;
 
+type Panel = Framebuffer<
+    Rgb565,
+    RawU16,
+    LittleEndian,
+    WIDTH,
+    HEIGHT,
+    { buffer_size::<Rgb565>(WIDTH, HEIGHT) },
+>;
+
 pub fn run() -> Result<(), Box<dyn Error>> {
-    let (width, height) = (baked::WIDTH, baked::HEIGHT);
     let mut bounce = Bounce::new()?;
-    let mut file = File::create("bounce.apng")?;
-    let mut animation = Animation::begin(&mut file, (width, height), PICTURES, 20)?;
+    let file = File::create("bounce.apng")?;
+    let mut encoder = png::Encoder::new(file, baked::WIDTH, baked::HEIGHT);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_animated(PICTURES, 0)?;
+    encoder.set_frame_delay(1, 20)?;
+    let mut animation = encoder.write_header()?;
     for _ in 0..PICTURES {
-        let mut hash = HashPanel::new(width, height);
+        let mut hash = HashPanel::new(baked::WIDTH, baked::HEIGHT);
         bounce.draw(&mut hash)?;
         println!("{:016x}", hash.hash());
-        let mut display = SimulatorDisplay::<Rgb565>::new(Size::new(width, height));
-        bounce.draw(&mut Dithered { panel: &mut display, ordered: true })?;
-        animation.add(&shown(&display)?)?;
+        let mut panel = Panel::new();
+        bounce.draw(&mut Dithered {
+            panel: &mut panel,
+            ordered: true,
+        })?;
+        animation.write_image_data(&shown(&panel))?;
         bounce.step();
         bounce.fits()?;
         bounce.refit();
@@ -33,13 +51,13 @@ pub fn run() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What the panel shows.
-fn shown(display: &SimulatorDisplay<Rgb565>) -> Result<Picture, Box<dyn Error>> {
-    let (width, height) = (baked::WIDTH, baked::HEIGHT);
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x as i32, y as i32)));
-    let level = |place: (i32, i32)| {
-        let colour: Rgb888 = display.get_pixel(place.into()).into();
-        [colour.r(), colour.g(), colour.b()]
-    };
-    Picture::from_levels(width, height, places.map(level).collect()).ok_or("no picture".into())
+/// What the panel shows: red, green and blue of each pixel.
+fn shown(panel: &Panel) -> Vec<u8> {
+    let places = (0..HEIGHT as i32).flat_map(|y| (0..WIDTH as i32).map(move |x| Point::new(x, y)));
+    let colours = places
+        .filter_map(|place| panel.pixel(place))
+        .map(Rgb888::from);
+    colours
+        .flat_map(|colour| [colour.r(), colour.g(), colour.b()])
+        .collect()
 }
