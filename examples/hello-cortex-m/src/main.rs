@@ -15,6 +15,11 @@ fn main() -> ! {
     let mut display = HashPanel::new(figure::WIDTH, figure::HEIGHT);
     let mut renderer = figure::Renderer::new();
     let drawn = renderer.draw(&figure::FRAME, &figure::TRACER, &mut display);
-    println!("{} in {}: hash {:016x}", figure::NAME, figure::ARITH, display.hash());
+    println!(
+        "{} in {}: hash {:016x}",
+        figure::NAME,
+        figure::ARITH,
+        display.hash()
+    );
     process::exit(i32::from(drawn.is_err()))
 }

@@ -3,8 +3,8 @@
 #![no_std]
 #![no_main]
 
-use riscv_rt::entry;
 use octray_embedded::hash::HashPanel;
+use riscv_rt::entry;
 use semihosting::{println, process};
 
 octray_embedded::scene! { mod figure = "figure-22"; }
@@ -15,6 +15,11 @@ fn main() -> ! {
     let mut display = HashPanel::new(figure::WIDTH, figure::HEIGHT);
     let mut renderer = figure::Renderer::new();
     let drawn = renderer.draw(&figure::FRAME, &figure::TRACER, &mut display);
-    println!("{} in {}: hash {:016x}", figure::NAME, figure::ARITH, display.hash());
+    println!(
+        "{} in {}: hash {:016x}",
+        figure::NAME,
+        figure::ARITH,
+        display.hash()
+    );
     process::exit(i32::from(drawn.is_err()))
 }
