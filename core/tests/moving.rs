@@ -8,10 +8,11 @@ mod strew;
 use fastrand::Rng;
 use octray_core::accel::{Accelerator, BruteForce, BuildOptions, CompactBvh8, compact_words};
 use octray_core::camera::{Projection, View};
+use octray_core::frame::Frame;
 use octray_core::object::{ObjectKind, ObjectRef};
 use octray_core::quantize::Quantize;
 use octray_core::scalar::{Approx, Fixed, Scalar};
-use octray_core::scene::OutOfRoom;
+use octray_core::scene::{OutOfRoom, Surface};
 use octray_core::shape::{Cone, Polygon, Triangle};
 use octray_core::trace::{QueuedRay, Tracer};
 use octray_core::vec3::{Vec3, vec3};
@@ -219,6 +220,7 @@ fn shapes_made_in_code_are_those_of_a_file() {
     fn compare<S: Quantize>() {
         let text = "v 1 2 9 at 0 0 0 up 0.1 1 0 angle 35 l 4 5 6 1 f 0 0 0 1 1 1 0 0 0 0 0 0
             s 0.3 -0.2 0.1 0.7 box 1 1 1 0.5 0.6 0.7 c -1 -1 0 0.8 -1 1 0.3 0.4
+            f 0.25 0.25 0.25 0.5 0.5 0.5 0.75 0.75 0.75 20 0.25 0.5 1.25
             p 3 0 0 0 1 0.1 0 0 1.2 0.3 p 4 -1 -1 -1 1 -1 -1 1 1 -1 -1 1 -1";
         let prepared = quantise::<S>(&octray_scenes::parse(text).unwrap(), &VIEW).unwrap();
         let (scene, world) = (&prepared.scene, &prepared.world);
@@ -243,6 +245,29 @@ fn shapes_made_in_code_are_those_of_a_file() {
             (ball.centre, ball.radius),
             (world.place([0.3, -0.2, 0.1]), world.radius(0.7))
         );
+        let seen = scene.scene();
+        for (id, kind) in [
+            (0, ObjectKind::Sphere),
+            (1, ObjectKind::Cuboid),
+            (2, ObjectKind::Cone),
+        ] {
+            assert_eq!(seen.object(id), Some(ObjectRef::new(kind, 0)));
+        }
+        assert_eq!(seen.object(5), None);
+        let every = prepared.frame.from_camera(*prepared.frame.camera());
+        assert_eq!(
+            (every.active().columns.clone(), every.active().rows.clone()),
+            (0..24, 0..18)
+        );
+        let first = |frame: &Frame<S>| frame.ray_at(1, 1).direction;
+        assert_eq!(first(&every), first(&prepared.frame));
+        let grey = |x: f64| vec3(S::from_f64(x), S::from_f64(x), S::from_f64(x));
+        let [half, quarter] = [0.5, 0.25].map(S::from_f64);
+        let surface = (Surface::matt(grey(0.5)).with_ambient(grey(0.25)))
+            .with_highlights(grey(0.75), 20)
+            .with_mirror(quarter)
+            .with_glass(half, S::from_f64(1.25), S::from_f64(0.8));
+        assert_eq!(surface, scene.surfaces[1]);
         assert_eq!(
             (scene.slack, scene.diameter),
             (world.slack(), world.diameter())

@@ -75,6 +75,11 @@ pub enum DrawError<E> {
         /// The pixels that it takes.
         pixels: usize,
     },
+    /// The first row is within the squares of pixels that one ray colours. Nothing is drawn.
+    SquaresCut {
+        /// The side of a square: the first row has to be a multiple of it.
+        side: u32,
+    },
     /// The picture is drawn, but lacks light: so many rays found no room to wait.
     RaysDropped {
         /// Rays that were not traced.
@@ -87,6 +92,7 @@ impl<E: Display> Display for DrawError<E> {
         match self {
             Self::Display(why) => why.fmt(f),
             Self::StripTooSmall { pixels } => write!(f, "the strip takes {pixels} pixels"),
+            Self::SquaresCut { side } => write!(f, "strips begin at multiples of {side} rows"),
             Self::RaysDropped { rays } => write!(f, "{rays} rays found no room to wait"),
         }
     }
@@ -159,7 +165,7 @@ impl<S: TraceScalar, K, const RAYS: usize, const LIGHTS: usize, const PIXELS: us
     /// Renders some rows of a picture, and returns their pixels, row by row.
     ///
     /// # Errors
-    /// [`DrawError::StripTooSmall`] if there is no room for them, [`DrawError::RaysDropped`].
+    /// [`DrawError::StripTooSmall`] if there is no room for them, [`DrawError::SquaresCut`], [`DrawError::RaysDropped`].
     pub fn strip<A, const FEATURES: FeatureSet>(
         &mut self,
         rows: Range<u32>,
@@ -172,6 +178,10 @@ impl<S: TraceScalar, K, const RAYS: usize, const LIGHTS: usize, const PIXELS: us
         let pixels = rows.len() * frame.params().width as usize;
         if pixels > PIXELS {
             return Err(DrawError::StripTooSmall { pixels });
+        }
+        let side = frame.block();
+        if !rows.start.is_multiple_of(side) {
+            return Err(DrawError::SquaresCut { side });
         }
         let mut dropped = DropCount(0);
         let (strip, mut workspace) = self.parts(pixels);

@@ -5,6 +5,7 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{OriginDimensions, Size};
 use embedded_graphics_core::pixelcolor::{BinaryColor, Rgb888};
 use octray_core::accel::{BuildOptions, CompactBvh8, CompactStack, compact_words};
+use octray_core::frame::{Frame, FrameParams};
 use octray_core::scalar::Fixed;
 use octray_core::trace::Tracer;
 use octray_embedded::diffusion::{Diffused, TooWide};
@@ -95,6 +96,15 @@ fn too_little_room_is_told() {
         assert_eq!(drawn.unwrap_err().to_string(), "the strip takes 40 pixels");
         let strip = narrow.strip(0..1, frame, tracer).err();
         assert_eq!(strip, Some(DrawError::StripTooSmall { pixels }));
+        let params = FrameParams {
+            block: 2,
+            ..frame.params().clone()
+        };
+        let squares = Frame::from_params(params);
+        let mut four_rows = Renderer::<S, CompactStack<64>, 5, 2, 160>::new();
+        let cut = four_rows.strip(1..3, &squares, tracer).err();
+        assert_eq!(cut, Some(DrawError::SquaresCut { side: 2 }));
+        assert!(four_rows.strip(2..4, &squares, tracer).is_ok());
         let mut few = Renderer::<S, CompactStack<64>, 1, 2, 40>::new();
         let drawn = few.draw(frame, tracer, &mut panel).unwrap_err();
         assert!(

@@ -33,7 +33,7 @@ pub struct BakeJob {
     pub tree: FirmwareTree,
     /// The target's triple, if it is known.
     pub target: Option<String>,
-    /// The least and the greatest corner of a box in which things can move.
+    /// Two opposite corners of a box in which things can move.
     pub room: Option<[[f64; 3]; 2]>,
     /// A plan that replaces all of these settings.
     pub plan: Option<PathBuf>,

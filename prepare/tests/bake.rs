@@ -152,6 +152,8 @@ fn mistakes_reach_a_build_script() {
     let (_folder, path) = written("f 0 0 0 1 1 1 0 0 0 0 0.5 0 s 0 0 -5 blob");
     assert!(why(file(&path)).contains("blob"), "{}", why(file(&path)));
     let (_folder, path) = written("f 0 0 0 1 1 1 0 0 0 0 0 0 s 0 0 -5 1");
+    let far = file(&path).room([0.0; 3], [f64::NAN, 1.0, 1.0]);
+    assert_eq!(why(far), "room: a number that is not finite");
     let text = why(file(&path).size(0, 4));
     assert_eq!(text, "setting size (columns) 0: expected 1 to 65535");
     assert!(why(file(path.with_file_name("none.scene"))).contains("none.scene"));

@@ -109,6 +109,8 @@ pub enum Place {
     Surface(usize),
     /// An object.
     Object(usize),
+    /// The room to move.
+    Room,
 }
 
 impl fmt::Display for Place {
@@ -120,6 +122,7 @@ impl fmt::Display for Place {
             Self::Light(index) => write!(f, "light {index}"),
             Self::Surface(index) => write!(f, "surface {index}"),
             Self::Object(index) => write!(f, "object {index}"),
+            Self::Room => f.write_str("room"),
         }
     }
 }
@@ -137,7 +140,7 @@ pub struct Broken {
 /// Checks a scene that was not parsed against the invariants of [`crate::model`].
 ///
 /// # Errors
-/// The first violated invariant, in the order camera, resolution, background, lights, surfaces, objects.
+/// The first violated invariant, in the order camera, resolution, background, lights, surfaces, objects, room.
 pub fn scene(scene: &Scene) -> Result<(), Broken> {
     let at = |place| move |fault| Broken { place, fault };
     camera(&scene.camera).map_err(at(Place::Camera))?;
@@ -154,7 +157,8 @@ pub fn scene(scene: &Scene) -> Result<(), Broken> {
     for (index, value) in scene.objects.iter().enumerate() {
         object(scene, value).map_err(at(Place::Object(index)))?;
     }
-    Ok(())
+    let corners = scene.room.as_slice().as_flattened();
+    finite(corners.as_flattened()).map_err(at(Place::Room))
 }
 
 /// The least angle between the view and `up`, in radians: at a smaller one, rounding in `f64` turns the picture by more

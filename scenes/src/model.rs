@@ -35,7 +35,7 @@ pub struct Scene {
     pub vertices: Vec<Point>,
     /// Vertex normals of all patches, as written in the file (any length but zero).
     pub normals: Vec<Point>,
-    /// The least and the greatest corner of a box in which objects, lights and the viewpoint are to have room to move.
+    /// Two opposite corners of a box in which objects, lights and the viewpoint are to have room to move.
     /// What is outside of it can stay there.
     pub room: Option<[Point; 2]>,
 }

@@ -42,7 +42,8 @@ impl core::error::Error for OutOfRoom {}
 impl<S: Quantize, const FEATURES: FeatureSet> Scene<'_, S, FEATURES> {
     /// Whether the scene, seen by this camera, fits its room: no number of its rendering overflows, and no hit is beyond
     /// its diameter. What is moved is to be checked before the picture is rendered; in fixed point a picture of a scene
-    /// that does not fit is wrong.
+    /// that does not fit is wrong. Whether an object is in the [active region](crate::frame::Frame::active) of a picture
+    /// is another question.
     ///
     /// No coordinate may be farther from the origin than half of [`Scene::diameter`] in fixed point, and in no format two
     /// points of objects, near lights and viewpoint farther apart than it.

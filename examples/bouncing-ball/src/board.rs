@@ -3,7 +3,6 @@
 use crate::ball::{Bounce, baked};
 use cortex_m_rt::entry;
 use octray_embedded::hash::HashPanel;
-use octray_embedded::marked;
 use semihosting::{println, process};
 
 /// How many pictures.
@@ -11,14 +10,14 @@ const PICTURES: u32 = 3;
 
 #[entry]
 fn main() -> ! {
-    let Ok(mut bounce) = marked!(build, Bounce::new()) else {
+    let Ok(mut bounce) = Bounce::new() else {
         println!("no room for the tree");
         process::exit(1);
     };
     for _ in 0..PICTURES {
         // In its place: the driver of your display.
         let mut display = HashPanel::new(baked::WIDTH, baked::HEIGHT);
-        if marked!(frame, bounce.draw(&mut display)).is_err() {
+        if bounce.draw(&mut display).is_err() {
             process::exit(1);
         }
         println!("{:016x}", display.hash());
@@ -26,7 +25,7 @@ fn main() -> ! {
         if bounce.fits().is_err() {
             process::exit(1);
         }
-        marked!(refit, bounce.refit());
+        bounce.refit();
     }
     process::exit(0)
 }

@@ -16,7 +16,7 @@ pub fn target() -> impl TypedValueParser<Value = Target> {
     PathBufValueParser::new().try_map(Target::new)
 }
 
-/// The least and the greatest corner of a box, in scene units.
+/// Two opposite corners of a box, in scene units.
 pub type Room = [[f64; 3]; 2];
 
 /// Parses two opposite corners of a box.
@@ -28,11 +28,7 @@ pub fn room(text: &str) -> Result<Room, String> {
         .filter(|numbers| numbers.iter().all(|x| x.is_finite()))
         .and_then(|numbers| <[f64; 6]>::try_from(numbers).ok())
         .ok_or_else(expected)?;
-    let (from, to) = ([a, b, c], [d, e, f]);
-    Ok([
-        [0, 1, 2].map(|i| from[i].min(to[i])),
-        [0, 1, 2].map(|i| from[i].max(to[i])),
-    ])
+    Ok([[a, b, c], [d, e, f]])
 }
 
 /// Parses one of a list of names; help shows the list with the meaning of each name.

@@ -4,6 +4,7 @@ use super::{BakeError, BakeOptions, Baked, bake};
 use crate::format::Arith;
 use crate::range::OutOfRange;
 use crate::settings::{FirmwareTree, RenderSettings, TreeSettings};
+use octray_scenes::check;
 use octray_scenes::model::Point;
 use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
@@ -102,12 +103,7 @@ impl Script {
 
     /// Two opposite corners of a box in which objects, lights and the viewpoint are to have room to move.
     pub fn room(mut self, from: Point, to: Point) -> Self {
-        self.room = Some([0, 1].map(|side| {
-            [0, 1, 2].map(|i| match side {
-                0 => from[i].min(to[i]),
-                _ => from[i].max(to[i]),
-            })
-        }));
+        self.room = Some([from, to]);
         self
     }
 
@@ -120,6 +116,7 @@ impl Script {
         let mut scene = octray_scenes::read(&self.path)
             .map_err(|error| ScriptError::Scene(error.to_string()))?;
         scene.room = self.room;
+        check::scene(&scene).map_err(|error| ScriptError::Scene(error.to_string()))?;
         let format = self.settings.arith.format(&scene, self.settings.max_depth);
         let kind = self.tree.kind_for(scene.objects.len(), format, target);
         let name = self.path.file_stem().unwrap_or_default().to_string_lossy();

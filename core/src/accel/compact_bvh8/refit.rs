@@ -5,6 +5,7 @@ use super::build::{grid_box, ticks_of};
 use super::node::{CHILD, HEADER, Header, LEAF};
 use super::room::{COMPACT_MAX_DEPTH, StackTooSmall, required};
 use crate::accel::boxes::{empty_box, union};
+use crate::accel::sah::WIDTH;
 use crate::accel::scalar::AccelScalar;
 use crate::features::FeatureSet;
 use crate::object::ObjectRef;
@@ -14,7 +15,7 @@ use crate::shape::Shapes;
 impl<'a, const ROOM: usize> CompactBvh8<'a, ROOM> {
     /// Fits the boxes of a tree, in place, to shapes of the same scene that have moved: which objects share a node stays,
     /// so that rays meet more of them the farther objects have moved from their neighbours, and a tree that is built anew
-    /// is then faster to walk. Pictures are the same. Takes a hundredth of the instructions of building, or less.
+    /// is then faster to walk. Pictures are the same.
     ///
     /// The words are those of [`CompactBvh8::words`], copied to memory that can be written; `links` and `tick` belong to
     /// the same tree.
@@ -48,7 +49,8 @@ fn refit_node<S: AccelScalar, const FEATURES: FeatureSet>(
     at: usize,
     levels: u32,
 ) -> Aabb<i32> {
-    let mut boxes = [empty_box::<i32>(); 16];
+    // A node has no more children; in words that no builder has made, the others keep their boxes.
+    let mut boxes = [empty_box::<i32>(); WIDTH];
     let mut all = empty_box();
     let count = Header::read(words, at).map_or(0, |header| header.count);
     for (k, bounds) in boxes.iter_mut().enumerate().take(count) {
